@@ -22,7 +22,7 @@ constexpr double largest_arithmetic_share = 0.1;
 constexpr std::size_t least_points = 3;
 constexpr double tail = 0.025;  // the share of the distribution on either side of a 95 % interval
 
-// Returns the factors that have different levels among the cases, except for `step`.
+// Returns the factors whose levels differ among the cases, except for `step`.
 std::set<std::string> telling_factors(std::span<const AccuracyCase> cases) {
   std::set<std::string> names;
   for (const AccuracyCase& each : cases) {
@@ -91,7 +91,8 @@ std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
 }
 
 // Returns the cost at which the line through two points, on logarithmic axes, reaches the error, or
-// nullopt if the error is not between the two points. Both logarithms must exist.
+// nullopt if the error is not between the two points, if one of the points has no cost, or if its
+// error is 0.
 std::optional<double> cost_between(const AccuracyCase& a, const AccuracyCase& b,
                                    const CostOf& cost_of, double error) {
   const auto of_a = cost_of(a);

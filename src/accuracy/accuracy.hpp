@@ -1,7 +1,7 @@
 #pragma once
-// Run time against error. The error of a configuration is measured against the limit of its scene.
-// The functions here compute orders of convergence and Pareto fronts from numbers only;
-// accuracy/cases.hpp collects these numbers.
+// Evaluates run time against error, where the error of a configuration is its deviation from the
+// limit image of its scene. The functions in this file compute orders of convergence and Pareto
+// fronts from plain numbers, which accuracy/cases.hpp collects.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,9 +26,9 @@ struct AccuracyCase {
   std::optional<std::uint64_t> fetched;       // bytes per frame that missed a simulated cache
   std::optional<std::uint64_t> memory;        // bytes on the device, if they were reported
   std::optional<double> joules;               // energy per frame, if any meter reported it
-  double rmse = 0;                            // root mean square error against the limit
+  double rmse = 0;                            // root mean square deviation from the limit
   double largest = 0;
-  double error_99 = 0;  // 99th percentile of the pixels' largest error
+  double error_99 = 0;  // 99th percentile of the largest channel errors of the pixels
   // rmse is split into two parts by the reference image at the device's sample positions. `lattice`
   // is the difference between the limit and that reference image. `arithmetic` is the difference
   // between the reference image and the device's image, which is caused by rounding, voxel storage,
@@ -56,9 +56,9 @@ struct Order {
 // the asymptotic range:
 //   - step ≤ 1: between planes of voxel centres, the field is one polynomial. A longer step skips
 //     whole pieces, so shortening it is not a refinement.
-//   - arithmetic ≤ error/10: by the triangle inequality, ln error is then within 0.11 of the part
-//     that the step causes, and within 0.005 if the two parts are uncorrelated, as rounding errors
-//     are.
+//   - arithmetic ≤ error/10: by the triangle inequality, ln error then differs by at most 0.11 from
+//     the logarithm of the part that is caused by the step, and by at most 0.005 if the two parts
+//     are uncorrelated, as rounding errors are.
 // Returns nullopt for fewer than three such points, because then the error is mainly rounding, or
 // too few steps were measured.
 [[nodiscard]] std::optional<Order> fit_order(std::span<const StepError> points);
@@ -117,9 +117,9 @@ struct Switched {
 // counterpart is a case that differs only in this factor. The most accurate case may be a different
 // one for every factor, because plans do not contain all combinations.
 [[nodiscard]] std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases);
-// Does the same for one factor that changes the image, so that `cases` and `others` are compared
-// with different limits. Returns the most accurate of `cases` that has a counterpart in `others`,
-// and this counterpart, or nullopt if there is none.
+// The counterpart of switched_alone() for a single factor that changes the image, so that `cases`
+// and `others` have different limits. Returns the most accurate of `cases` that has a counterpart
+// in `others`, and this counterpart, or nullopt if there is none.
 [[nodiscard]] std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
                                                        std::span<const AccuracyCase> others,
                                                        std::string_view factor);

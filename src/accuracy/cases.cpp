@@ -12,8 +12,8 @@
 namespace triptych::accuracy {
 namespace {
 
-// Returns the scene's string "camera=…,data=…,step=…" without its step, and without the levels that
-// `other` does not contain.
+// Returns the factor list `scene` ("camera=…,data=…,step=…") without the step, and without the
+// levels that `other` does not contain.
 std::string in_common(std::string_view scene, std::string_view other) {
   const auto known = record::parse_factor_list(other);
   auto kept = record::parse_factor_list(scene);
@@ -39,7 +39,7 @@ std::uint64_t bytes_held(const record::Counts& memory) {
   return bytes;
 }
 
-// Returns the energy over all meters. No meter measures a part of what another meter measures
+// Returns the sum of the energies from all meters, which measure separate parts of the system
 // (measure/system/energy_meters.hpp).
 double joules_of(const record::Counts& microjoules) {
   double sum = 0;

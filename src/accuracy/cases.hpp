@@ -30,9 +30,9 @@ struct PictureError {
   double lattice = 0;
   double arithmetic = 0;
 };
-// Compares an image with its limit. `truth` is the reference image at the sample positions of the
-// device's image. Returns nullopt if the three images differ in size, or if the device's image
-// contains a value that is not finite.
+// Returns the errors of an image compared with its limit. `truth` is the reference image at the
+// sample positions of the device's image. Returns nullopt if the three images differ in size, or if
+// the device's image contains a value that is not finite.
 [[nodiscard]] std::optional<PictureError> picture_error(const core::Image& picture,
                                                         const core::Image& truth,
                                                         const core::Image& limit);
@@ -57,7 +57,7 @@ struct AccuracyScene {
   std::optional<FrontArea> area;  // only if anything was timed
 };
 
-// Combines a record with its errors and with its time according to `clock`.
+// Combines a record with its errors and with the median of its timings by `clock`.
 [[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
                                          std::string_view clock);
 
@@ -71,7 +71,7 @@ void evaluate(AccuracyScene& scene);
 // "hypervolume", "configurations": [{"configuration", "time_ns", "samples", "instructions",
 // "fetched_bytes", "memory_bytes", "joules", "rmse", "largest", "error_99", "lattice",
 // "arithmetic", "front"}], "families": [{"name", "order", "half_width", "configurations"}]}. A
-// value that was not timed, counted or found is null.
+// value is null if it was not timed, counted or determined.
 [[nodiscard]] nlohmann::json to_json(const AccuracyScene& scene);
 
 }  // namespace triptych::accuracy

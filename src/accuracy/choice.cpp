@@ -17,8 +17,8 @@ StepError longest_step(double error, const StepLimits& limits, const ErrorOfStep
   const auto holds_from = [&](double step) {
     return holds(step) && (step / 2 < limits.shortest || holds(step / 2));
   };
-  // The search starts at a step of a few voxels, which is usual for ordinary images, and then
-  // halves or doubles it.
+  // The search starts at a step of a few voxels, which is a typical result, and then halves or
+  // doubles the step.
   double step = std::clamp(4.0, limits.shortest, limits.longest);
   while (!holds_from(step)) {
     if (step / 2 < limits.shortest) return {.step = step, .error = known.at(step)};
@@ -37,8 +37,8 @@ StepError longest_step(double error, const StepLimits& limits, const ErrorOfStep
 
 StepError shortened_step(double step, double error, const StepLimits& limits,
                          const ErrorOfStep& error_of) {
-  // The new step is a little shorter than an error of second order requires. The minimum shortening
-  // ensures that the search ends.
+  // The new step is a little shorter than required for an error of second order. The minimum
+  // shortening ensures that the search ends.
   constexpr double margin = 0.97;
   constexpr double least_shortening = 0.84;  // a quarter of an octave
   constexpr double most_shortening = 1.0 / 16;

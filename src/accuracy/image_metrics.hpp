@@ -9,8 +9,9 @@
 namespace triptych::accuracy {
 
 // The error of a pixel is the largest absolute difference in any of its four channels, where 1 is
-// full scale. Its bound is the bound of that pixel and channel. Pixels that contain a value that is
-// not finite, in either image, are counted separately and excluded from everything else.
+// full scale. The bound that belongs to this error is that of the same pixel and channel. Pixels
+// that contain a value that is not finite, in either image, are counted separately and excluded
+// from everything else.
 struct ImageComparison {
   struct Place {
     int x = -1;  // -1 if no pixel could be compared
@@ -58,7 +59,7 @@ struct ImageComparison {
 [[nodiscard]] ImageComparison compare(const core::Image& image, const core::Image& truth,
                                       const core::Image& bound, double slack = 0);
 
-// Does the same with one bound for all pixels.
+// Compares an image with its reference image, using the same bound for all pixels.
 [[nodiscard]] ImageComparison compare(const core::Image& image, const core::Image& truth,
                                       double bound);
 

@@ -71,7 +71,7 @@ std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
   }
   const double steps = square > 0 ? along / square : 0.0;
   if (!std::isfinite(steps) || std::abs(steps) > 1e15) return -1;
-  // The middle of a very short last step is just above a whole number, so rounding might otherwise
+  // The middle of a very short last step is just above an integer, so rounding might otherwise
   // yield the previous index.
   return static_cast<std::int64_t>(std::floor(steps + 1e-4));
 }

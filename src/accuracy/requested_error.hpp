@@ -13,12 +13,12 @@ namespace triptych::accuracy {
 
 enum class Metric : std::uint8_t {
   rms,      // root mean square over all pixels and channels
-  covered,  // root mean square over the pixels in which the limit shows something
-  p99_9,    // 99.9th percentile over the pixels of their largest channel error
-  max       // the largest difference
+  covered,  // root mean square over the non-background pixels of the limit
+  p99_9,    // 99.9th percentile of the largest channel errors of the pixels
+  max       // largest difference in any pixel and channel
 };
 inline constexpr std::array all_metrics{Metric::rms, Metric::covered, Metric::p99_9, Metric::max};
-// The names "rms", "covered", "p99.9" and "max".
+// Returns "rms", "covered", "p99.9" or "max".
 [[nodiscard]] std::string_view name_of(Metric metric);
 
 struct RequestedError {
@@ -33,7 +33,7 @@ struct RequestedError {
 // The errors of an image, measured against its limit.
 struct PictureErrors {
   std::array<double, all_metrics.size()> by_metric{};
-  std::size_t covered = 0;  // number of pixels in which the limit shows something
+  std::size_t covered = 0;  // number of non-background pixels of the limit
 
   [[nodiscard]] double of(Metric metric) const {
     return by_metric[static_cast<std::size_t>(metric)];

@@ -27,7 +27,7 @@ std::string_view name_of(SurfaceDifference difference) {
     case SurfaceDifference::unexpected:
       return "unexpected particle";
     case SurfaceDifference::particle:
-      return "another particle";
+      return "different particle";
     case SurfaceDifference::depth:
       return "depth";
     case SurfaceDifference::colour:

@@ -43,7 +43,7 @@ enum class SurfaceDifference : std::uint8_t {
 [[nodiscard]] std::string_view name_of(SurfaceDifference difference);
 [[nodiscard]] SurfaceDifference compare(const ExpectedSurface& expected, const ShownSurface& shown);
 
-// The result of drawing a single sphere that the pixel's ray may meet, without any other sphere.
+// The result of drawing only one sphere, which the pixel's ray may hit.
 struct SpriteRow {
   std::uint32_t id = 0;
   ExpectedSurface expected;
@@ -67,7 +67,7 @@ struct SpriteHistory {
 using Particles = std::vector<std::uint32_t>;
 struct Fewest {
   Particles particles;
-  bool stopped_early = false;  // the limit of calls ended the search
+  bool stopped_early = false;  // whether the limit on calls ended the search
 };
 // Reduces `particles`, for which `wrong` returns true, by leaving out parts as long as `wrong`
 // still returns true. Calls `wrong` at most `most_calls` times. The algorithm is ddmin (Zeller and

@@ -28,13 +28,14 @@ constexpr std::size_t most_pairs = 990;
 void require_points(Points x, Points y) {
   const auto finite = [](double value) { return std::isfinite(value); };
   if (x.size() != y.size() || x.size() < 4) {
-    throw core::InputError("a line fit needs as many x as y values, and at least four points");
+    throw core::InputError(
+        "a line fit needs an equal number of x and y values, and at least four points");
   }
   if (!std::ranges::all_of(x, finite) || !std::ranges::all_of(y, finite)) {
-    throw core::InputError("a line fit needs finite values");
+    throw core::InputError("the values for a line fit must be finite");
   }
   if (std::ranges::all_of(x, [&](double value) { return value == x.front(); })) {
-    throw core::InputError("a line fit needs points with different x");
+    throw core::InputError("the points for a line fit must not all have the same x");
   }
 }
 

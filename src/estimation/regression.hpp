@@ -22,8 +22,8 @@ struct LeastSquares {
   Line line;
   double slope_error = 0;  // standard error
 };
-// Regression of y on x. All numbers are NaN if x is constant. The error is also NaN if there are
-// fewer than three pairs.
+// Fits the regression line of y on x. All numbers are NaN if x is constant. The error is also NaN
+// if there are fewer than three pairs.
 [[nodiscard]] LeastSquares least_squares(std::span<const double> x, std::span<const double> y);
 
 // theil_sen() and robust_line() throw InputError if there are fewer than four points, if a value is

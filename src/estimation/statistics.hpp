@@ -1,5 +1,5 @@
 #pragma once
-// The statistics that the gate uses, as plain functions of numbers.
+// Statistics for the gate, as plain functions of numbers.
 
 #include <cstddef>
 #include <span>
@@ -21,11 +21,11 @@ inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 // Returns the t with P(T > t) = share, for share in (0, 1).
 [[nodiscard]] double student_t_upper_quantile(double share, double degrees);
 
-// The procedure of Benjamini & Hochberg 1995: returns which hypotheses are rejected if the expected
-// share of false rejections among them must be at most q.
+// Returns which hypotheses are rejected by the procedure of Benjamini & Hochberg (1995), which
+// limits the expected share of false rejections among all rejections to q.
 [[nodiscard]] std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q);
 
-// Returns, for each p-value, the smallest q at which the same procedure rejects its hypothesis.
+// Returns, for each p-value, the smallest q at which this procedure rejects its hypothesis.
 [[nodiscard]] std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values);
 
 // Estimates of the variances of many groups become more accurate if they are combined. The prior is

@@ -27,9 +27,9 @@ const std::vector<Factor>& particle_factors() {
       text("data", "generate:uniform:10000",
            "a particle file (" + scene::particle_endings() +
                ", plain or compressed; FILE@K: its K-th frame), generate:NAME:COUNT, or "
-               "stress:CASE:VARIANT (a hostile scene)"),
+               "stress:CASE:VARIANT (a stress scene)"),
       choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_picture,
-             "the source of a particle's colour: four bytes, four floats, or an intensity that is "
+             "how a particle's colour is stored: four bytes, four floats, or an intensity that is "
              "looked up in the transfer function"),
       text("transfer_function", "haze",
            "colours for intensities: haze, surfaces, or a file with 256 RGBA entries"),
@@ -42,19 +42,19 @@ const std::vector<Factor>& particle_factors() {
       choice("corners", {"4", "5", "6", "7", "8", "16", "32"}, "8", Decides::how_it_is_made,
              "number of corners of polygon_tess"),
       choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,
-             "which cells of particles are not drawn"),
+             "which cells of particles are culled"),
       choice("structure", {"static", "refit", "rebuild"}, "static", Decides::how_it_is_made,
-             "what each frame does with the hierarchy that rays traverse: nothing (static), fit it "
-             "to moved spheres, or build it again"),
+             "what each frame does with the hierarchy that rays traverse: nothing (static), refit "
+             "it to moved spheres, or rebuild it"),
       number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture,
              "factor by which every radius is multiplied"),
       text("camera", "orbit_y:1/8",
            "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED or view:AZIMUTH/ELEVATION/DISTANCE "
-           "(degrees, and orbit radii: view:45/20/0.8); own: that of the stress case"),
+           "(degrees, and orbit radii: view:45/20/0.8); own: the stress case's camera"),
       number("fov", 0.0005, 179, "60", Decides::the_picture,
-             "vertical field of view in degrees; own: that of the stress case",
+             "vertical field of view in degrees; own: the stress case's value",
              {std::string(own_level)}),
-      text("viewport", "256", "N for NxN, or WxH, in pixels; own: that of the stress case"),
+      text("viewport", "256", "N for NxN, or WxH, in pixels; own: the stress case's viewport"),
   };
   return factors;
 }

@@ -28,7 +28,7 @@ class Image {
         half_y_(scene::tangent_of_half(scene.camera.fov_y_deg)),
         half_x_(half_y_ * scene.width / scene.height) {}
 
-  // The larger of a pixel's width and height on the image plane at distance 1.
+  // Returns the larger of a pixel's width and height on the image plane at distance 1.
   [[nodiscard]] double pixel() const {
     return std::max(2 * half_x_ / scene_.width, 2 * half_y_ / scene_.height);
   }
@@ -37,7 +37,7 @@ class Image {
     return {glm::dot(to, scene_.camera.right()), glm::dot(to, scene_.camera.up),
             glm::dot(to, scene_.camera.forward)};
   }
-  // The number of pixels whose rays hit the grown square but not the original one.
+  // Returns the number of pixels whose rays hit the grown square but not the original square.
   [[nodiscard]] std::uint64_t ring(const Square& square) const;
 
  private:

@@ -23,10 +23,10 @@ const std::vector<Entry>& entries() {
         "of floats for radii from 2^-50 to 2^50",
         {"unit", "small", "large"}}, stress_scale},
       {{34, "far", "the eye is 10^3 to 2*10^5 radii away; the silhouette is half as high as the image",
-        "the silhouette is correct to within 8u of the image's side and 5u of the radius, because no "
-        "term of the cross product is larger than the extent of the image at the sphere's distance "
-        "(b^2 - c would have an error of u*d^2, which exceeds r^2 beyond 4,096 radii). The depth has "
-        "an error of up to 24u(d + r), which is 0.3 radii in the last variant",
+        "the silhouette is correct to within 8u of the image's side and 5u of the radius (u = "
+        "2^-24), because no term of the cross product is larger than the extent of the image at the "
+        "sphere's distance (b^2 - c would have an error of u*d^2, which exceeds r^2 beyond 4,096 "
+        "radii). The depth has an error of up to 24u(d + r), which is 0.3 radii in the last variant",
         {"1e3", "1e4", "1e5", "2e5"}}, stress_far},
       {{35, "giant", "small spheres touch a sphere with 10,000 times their radius",
         "each sphere is within its own bounds; the larger bounds of the giant apply only to its own "
@@ -36,7 +36,7 @@ const std::vector<Entry>& entries() {
         "surface",
         "every pixel shows the point where the ray leaves the sphere; everything outside is hidden",
         {"centre", "off_centre", "under_surface"}}, stress_inside},
-      {{37, "skimming", "the eye is 1.0001 or 1.0006 radii from a centre, with the horizon in view",
+      {{37, "skimming", "the eye is 1.0001 or 1.0006 radii from a sphere's centre, with the horizon in view",
         "up to a distance of 1.0005 radii, the sprite is the whole viewport; beyond that, it reaches "
         "behind the eye and is clipped; no pixel is lost at the horizon",
         {"1.0001", "1.0006"}}, stress_skimming},
@@ -45,7 +45,7 @@ const std::vector<Entry>& entries() {
         "the reversed depth", {}}, stress_near_plane},
       {{39, "behind", "centres are behind the eye's plane while a part is in front; one sphere is "
         "completely behind",
-        "the parts in front are visible, whatever sign the centre's depth has", {}}, stress_behind},
+        "the parts in front are visible, regardless of the sign of the centre's depth", {}}, stress_behind},
       {{40, "wide", "the field of view is 150 degrees, with spheres in the corners",
         "every sprite covers the whole ellipse of its sphere, which is longest in the corners", {}},
        stress_wide},
@@ -59,7 +59,7 @@ const std::vector<Entry>& entries() {
         {}}, stress_subpixel},
       {{43, "no_sphere", "radii are 0, negative, NaN or infinite; a centre is not finite; or the "
         "square of a radius underflows to 0",
-        "invalid spheres are dropped and counted, and the image is bit-identical to one without them; "
+        "invalid spheres are dropped and counted, and the image is bit-identical to that without them; "
         "a vanishing radius changes no certain pixel", {"without", "with", "vanishing"}},
        stress_no_sphere},
       {{44, "coincident", "every sphere exists eight times, in different colours",
@@ -94,7 +94,7 @@ const std::vector<Entry>& entries() {
         "centres are transformed to camera space with twice the precision of a float, so their error "
         "is 10^-8 pixel here",
         {"0.001", "179"}}, stress_field_of_view},
-      {{54, "asymmetric", "no flip leaves the scene unchanged",
+      {{54, "asymmetric", "every flip changes the scene",
         "the image has the same orientation on every API", {}}, stress_asymmetric},
   };
   return all;

@@ -1,7 +1,8 @@
 #pragma once
-// Scenes on which sphere renderers often fail, each with the expected result. A plan selects them
-// with data "stress:CASE" or "stress:CASE:VARIANT". Each scene has its own camera and viewport,
-// which are used if the factors `camera`, `fov` and `viewport` have the level `own`.
+// Scenes on which sphere renderers often fail, each with the expected result. A plan selects a
+// scene with the level `stress:CASE` or `stress:CASE:VARIANT` of the factor `data`. Each scene has
+// its own camera and viewport, which are used if the factors `camera`, `fov` and `viewport` have
+// the level `own`.
 //
 // In every image, each certain pixel (reference/spheres.hpp) must show the same particle as the
 // reference image, with depth and colour within the bounds of tolerance.hpp. Any other pixel must
@@ -25,7 +26,7 @@ using measure::own_level;
 struct StressCase {
   int number = 0;  // number in the catalogue of docs/accuracy.md
   std::string_view name;
-  std::string_view summary;                // why renderers fail on it
+  std::string_view summary;                // what makes the case difficult
   std::string_view expected;               // the expected result, and why it is achievable
   std::vector<std::string_view> variants;  // empty if the case has only one scene
 };

@@ -120,8 +120,9 @@ StressScene stress_order(std::string_view variant, scene::ColourKind colour) {
   return scene;
 }
 
-// There is a crowd of spheres on each side of a wall. The eye jumps from one side to the other, so
-// knowing what was visible in the previous frame is useless, and most hidden spheres are needed.
+// There is a crowd of spheres on each side of a wall. The eye jumps from one side to the other. The
+// visibility in the previous frame is therefore useless, and most spheres that were hidden have
+// become visible.
 StressScene stress_jump(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({3, 2, -24}, {0, 0, 0}, fov), stress_side, stress_side);
   for (int y = 0; y < 21; ++y) {

@@ -94,7 +94,7 @@ class ParticleSuite final : public measure::SuiteWithTruth, public measure::Expe
                                              int y) override;
 
  private:
-  // The particle set that was loaded last, with everything that belongs to it. It is cached because
+  // The most recently loaded particle set, with the data that belong to it. It is cached because
   // successive configurations of a plan usually use the same set.
   struct Loaded {
     std::string what;
@@ -109,8 +109,8 @@ class ParticleSuite final : public measure::SuiteWithTruth, public measure::Expe
   [[nodiscard]] const StressScene& own(std::string_view factor) const;
   [[nodiscard]] scene::Camera camera(const Configuration& configuration) const;
   [[nodiscard]] scene::ParticleScene scene(const Configuration& configuration);
-  // A string that identifies everything that affects the image, except for the factors and the
-  // particles.
+  // Returns a string that identifies everything that affects the image except for the factors and
+  // the particles.
   [[nodiscard]] std::string beside_factors(const Configuration& configuration);
 
   std::vector<std::filesystem::path> folders_;
@@ -161,7 +161,7 @@ void ParticleSuite::load(const Configuration& configuration) {
 const StressScene& ParticleSuite::own(std::string_view factor) const {
   if (loaded_.own) return *loaded_.own;
   throw core::InputError(
-      fmt::format("{}: level 'own' is only for data stress:CASE, but the data are {}", factor,
+      fmt::format("{}: level 'own' requires data=stress:CASE, but the data are {}", factor,
                   loaded_.particles->name));
 }
 
@@ -301,8 +301,8 @@ std::string ParticleSuite::limit_key(const Configuration& configuration) {
       configuration.at("viewport"), beside_factors(configuration));
 }
 
-// A pixel shows the surface on the ray through its centre. No sampling can be refined, so the
-// reference image in double precision is already the limit.
+// A pixel shows the surface on the ray through its centre. There is no sampling that could be
+// refined, so the reference image in double precision is already the limit.
 measure::Limit ParticleSuite::limit(const Configuration& configuration) {
   core::Image image = reference::render_spheres(scene(configuration)).image();
   core::Image none(image.width, image.height);

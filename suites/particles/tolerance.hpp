@@ -35,8 +35,8 @@ namespace triptych::particles_suite {
 //
 // 3. Error of the depth, relative to |c| + r.
 //   - b = c·d consists of 3 products and 2 sums, 3u·|c||d|. The error of c adds u: 4u.
-//   - The root √D: the error of the discriminant D is the lateral error above. The square root
-//     itself adds 5u.
+//   - The error of the discriminant D is the lateral error above. Taking the square root √D adds
+//     5u.
 //   - The difference b − √D adds u, the division by q adds 5u, and q itself 3u. The reversed depth
 //     near/Z adds 5u, and its conversion back to a distance adds u. The total is 24u.
 //

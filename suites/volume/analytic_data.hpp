@@ -17,8 +17,9 @@ struct AnalyticData {
   int size = 0;
 };
 
-// The level for the transfer function that belongs to the data. Only analytic problems and stress
-// cases have one; for all other data it means `surfaces`, whose rays end early.
+// The level that selects the data's own transfer function. Only analytic problems and stress cases
+// have their own transfer function. For all other data, this level means `surfaces`, with which
+// rays end early.
 inline constexpr std::string_view own_transfer_function = "own";
 
 // Returns nullopt if `data` does not name an analytic problem. Throws InputError if the problem is

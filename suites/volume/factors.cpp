@@ -19,8 +19,8 @@ using measure::Factor;
 using measure::number;
 using measure::text;
 
-// Marks a factor that was added after the first scenes had been stored. Its default level does not
-// appear in names.
+// Marks a factor that was added after the first scenes had been stored. Its default level is
+// omitted from names.
 Factor silent(Factor factor) {
   factor.silent_default = true;
   return factor;
@@ -41,8 +41,8 @@ const std::vector<Factor>& volume_factors() {
              "exact path"),
       choice(
           "sampler", {"auto", "hardware", "manual", "packed"}, "auto", Decides::how_it_is_made,
-          "how voxels are interpolated: by the device's sampler, by the kernel, or by the kernel "
-          "from packed cells of eight voxels; auto: the device's fastest exact path"),
+          "how voxels are interpolated: by the hardware sampler, by the kernel (manual), or by the "
+          "kernel from packed cells of eight voxels; auto: the device's fastest exact path"),
       silent(text("window", "full",
                   "the range of values that the transfer function spans: full, or LOW..HIGH in the "
                   "data's units or percentiles (p1..p99, 0..p99.5); values outside are clamped")),
@@ -50,12 +50,12 @@ const std::vector<Factor>& volume_factors() {
                     "how values are mapped to the window; log: by their logarithm, with values "
                     "below the smallest positive one mapped to 0")),
       silent(text("component", "0",
-                  "which value is drawn if the data have several values per voxel, such as "
-                  "colours, vectors or time steps: a number counted from 0, or magnitude, the "
-                  "Euclidean length of all of them")),
+                  "the component to draw if the data have several values per voxel, such as "
+                  "colours, vectors or time steps: a 0-based index, or magnitude for the "
+                  "Euclidean norm of all components")),
       text("transfer_function", "haze",
-           "haze, surfaces, a file with 256 RGBA entries, or own: that of the analytic problem or "
-           "stress case (surfaces for all other data)"),
+           "haze, surfaces, a file with 256 RGBA entries, or own: the analytic problem's or "
+           "stress case's transfer function (surfaces for all other data)"),
       number("step", 1.0 / 64, 4096, "1", Decides::the_picture,
              "distance between samples in units of the smallest voxel spacing; own, here and "
              "below: the value of the stress case (the default for all other data)",
@@ -77,10 +77,10 @@ const std::vector<Factor>& volume_factors() {
              {std::string(own_level)}),
       number("adapt", 0, 0.5, "0", Decides::how_it_is_made,
              "allowed error due to merging the samples of a nearly homogeneous brick into one "
-             "sample; needs skip=bricks"),
+             "sample; requires skip=bricks"),
       choice("precision", {"fp32", "fp64"}, "fp32", Decides::how_it_is_made,
-             "precision of rays, interpolation and compositing; fp64 needs sampler=manual or "
-             "packed, and auto then selects one of them"),
+             "precision of rays, interpolation and compositing; fp64 requires sampler=manual or "
+             "sampler=packed, and sampler=auto then selects one of them"),
       number("budget", 0x1.0p-10, 1 << 20, std::string(no_budget), Decides::how_it_is_made,
              "MiB of device memory for voxels: a larger volume is drawn in parts, front to back, "
              "which are uploaded in every frame; none: as much as the device's limits allow",

@@ -32,7 +32,7 @@ class OwnLevels {
   [[nodiscard]] std::array<float, 4> background() const;
 
  private:
-  // Whether the stress case defines the value of the factor.
+  // Returns whether the stress case defines the value of the factor.
   [[nodiscard]] bool is_stress(const std::string& factor) const {
     return stress_ != nullptr && configuration_.at(factor) == own_level;
   }

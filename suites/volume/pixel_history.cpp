@@ -42,8 +42,8 @@ accuracy::ExpectedRay pixel_history(const scene::VolumeScene& scene,
                                     const reference::ErrorModel& model, int x, int y) {
   if (scene.quadrature == scene::Quadrature::cells) {
     throw core::NotSupported(
-        "--pixel compares samples and steps by their number, but the pieces of quadrature=cells "
-        "have no numbers: use midpoint or preintegrated");
+        "--pixel requires quadrature=midpoint or quadrature=preintegrated, because it compares "
+        "samples by their index, and the pieces of quadrature=cells have no index");
   }
   const reference::RayHistory history = reference::ray_history(scene, model, x, y);
   accuracy::ExpectedRay ray{.entry = {history.entry.x, history.entry.y, history.entry.z},

@@ -6,7 +6,7 @@
 namespace triptych::volume_suite {
 
 // Returns the samples that a device should take for pixel (x, y). Throws core::NotSupported for
-// quadrature cells.
+// quadrature=cells.
 [[nodiscard]] accuracy::ExpectedRay pixel_history(const scene::VolumeScene& scene,
                                                   const reference::ErrorModel& model, int x, int y);
 

@@ -5,10 +5,10 @@
 
 namespace triptych::volume_suite {
 
-// If no brick is empty, skipping by leaps is the same work as no skipping, because rays detect this
-// at once and take every sample. Stepping from brick to brick is additional work even then. Whether
-// early termination changes the work is found by comparing images; speed_of_light ignores early
-// termination.
+// If no brick is empty, skip=distance is the same work as skip=none, because rays detect this at
+// once and take every sample. Stepping from brick to brick (skip=bricks) is additional work even
+// then. Whether early termination changes the work is determined later by comparing images, except
+// for speed_of_light, which ignores early termination.
 [[nodiscard]] measure::PlainWork plain_work(const measure::Configuration& configuration,
                                             const measure::VolumeWork& work);
 

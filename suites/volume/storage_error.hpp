@@ -13,8 +13,9 @@ struct StorageError {
   double rounding = 0;  // see PathPrecision::voxel_rounding
 };
 
-// `voxel` is the level of the factor. `native` is the format that stores the data's values exactly.
-// `fits_halves` is true if half floats also store them exactly (scene::fits_halves).
+// Returns the storage error. `voxel` is the level of the factor `voxel`. `native` is the format
+// that stores the data's values exactly. `fits_halves` is true if half floats also store them
+// exactly (scene::fits_halves).
 [[nodiscard]] StorageError storage_error(const std::string& voxel, scene::VoxelFormat native,
                                          bool fits_halves, technique::Precision precision);
 

@@ -53,8 +53,8 @@ std::vector<StressCase> cases_of_geometry() {
        stress_octant},
       {7,
        "far",
-       "the eye is 10³ … 10⁷ voxels away, with a focal length to match; because volumes begin at 0 "
-       "by definition, a world offset would also only move the eye",
+       "the eye is 10³ … 10⁷ voxels away, with a focal length to match; this also covers offsets "
+       "in world space, which would only move the eye because volumes begin at 0",
        "the image is the same as from nearby, because rays begin on a plane in front of the box "
        "whose position is computed in double precision, so that the distance causes no round-off",
        {"1e3", "1e4", "1e5", "1e6", "1e7"},
@@ -73,7 +73,7 @@ std::vector<StressCase> cases_of_size() {
        stress_scale},
       {9,
        "spacing",
-       "voxels have side ratios of 1:1:8 and 1:1:1000",
+       "voxels have aspect ratios of 1:1:8 and 1:1:1000",
        "the image is within a bound that measures lengths in units of the smallest spacing, "
        "because the rounding error of a direction moves a sample by a length in this unit",
        {"8", "1000"},
@@ -147,7 +147,8 @@ std::vector<StressCase> cases_of_voxels() {
        stress_denormal},
       {19,
        "flat",
-       "the range of floats or of bytes is empty; the field is constant, also with shading",
+       "the value range of floats or bytes is empty, or the field is constant, with or without "
+       "shading",
        "an empty range maps everything to 0; where the gradient is 0, the cosine is 0 as well, "
        "because the divisor has a lower limit",
        {"range_f32", "range_u8", "plain", "shaded"},
@@ -213,7 +214,7 @@ std::vector<StressCase> cases_of_transfer() {
        "edit",
        "transfer functions are random, with runs of visible entries "
        "(tests/contract/stress_test.cpp tests 100 of them)",
-       "skipping changes no bit, whatever the transfer function is",
+       "the image with skipping is bit-identical for every transfer function",
        {"1", "2", "3", "4", "5", "6", "7", "8"},
        stress_edit},
       {29,
@@ -231,13 +232,13 @@ std::vector<StressCase> cases_of_transfer() {
        stress_opaque},
       {31,
        "lit_everywhere",
-       "each brick has one lit voxel, so nothing can be skipped",
+       "each brick has one visible voxel, so nothing can be skipped",
        "with skipping, a ray takes at most 1.1 times as many samples as without skipping",
        {},
        stress_lit_everywhere},
       {32,
        "lit",
-       "one lit voxel is on a brick's face, edge or corner, or in the first or last layer",
+       "one visible voxel is on a brick's face, edge or corner, or in the first or last layer",
        "the voxel is visible, because the border of one voxel around each brick makes every sample "
        "near it count",
        {"face", "edge", "corner", "first", "last"},

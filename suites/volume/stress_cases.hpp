@@ -1,12 +1,12 @@
 #pragma once
-// Volumes on which renderers often fail, each with the expected result. A plan selects them with
-// data "stress:CASE" or "stress:CASE:VARIANT". Each case has its own transfer function, camera,
-// viewport, step, quadrature, shading and early termination, which the factors with the level `own`
-// use.
+// Volumes on which renderers often fail, each with the expected result. A plan selects a volume
+// with the level `stress:CASE` or `stress:CASE:VARIANT` of the factor `data`. Each case has its own
+// transfer function, camera, viewport, step, quadrature, shading and early termination, which the
+// factors with the level `own` use.
 //
-// Every image must be within its bound of the reference image (tolerance.hpp), and skipping empty
-// space must not change any bit of it. Each case states why single precision is sufficient for
-// this, and what else is expected.
+// Every image must be within its bound of the reference image (tolerance.hpp), and must be
+// bit-identical with and without skipping of empty space. Each case states why single precision is
+// sufficient for this, and what else is expected.
 
 #include <array>
 #include <optional>
@@ -46,7 +46,7 @@ struct StressScene {
 struct StressCase {
   int number = 0;  // number in the catalogue of docs/accuracy.md
   std::string_view name;
-  std::string_view summary;                // why renderers fail on it
+  std::string_view summary;                // what makes the case difficult
   std::string_view expected;               // the expected result, and why it is achievable
   std::vector<std::string_view> variants;  // empty if the case has only one scene
   StressScene (*scene)(std::string_view variant) = nullptr;

@@ -20,7 +20,7 @@ StressScene seen_from(const scene::Camera& camera) {
   return scene;
 }
 
-// The numbers of columns and rows are odd, so that the ray in the middle looks exactly forward.
+// Makes the numbers of columns and rows odd, so that the ray in the middle points exactly forward.
 StressScene with_middle_ray(StressScene scene) {
   scene.width = scene.height = 25;
   return scene;
@@ -121,7 +121,7 @@ StressScene stress_unseen(std::string_view variant) {
   const glm::dvec3 eye(60, 12, 70);
   StressScene scene = seen_from(variant == "behind" ? looking(eye, eye + eye, 60)
                                                     : looking(eye, {140, 12, 70}, 60));
-  const record::Expectation none{"no sample, because no ray meets the box",
+  const record::Expectation none{"no sample, because no ray hits the box",
                                  record::CountAtMost{.counter = "samples", .factor = 0}};
   const record::Expectation background{"exactly the background",
                                        record::OneColour{scene.background}};

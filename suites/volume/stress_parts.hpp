@@ -1,6 +1,6 @@
 #pragma once
-// Building blocks of the stress scenes. They use only operations on doubles that are correctly
-// rounded, so that a case is the same on every machine.
+// Building blocks for stress scenes. They use only correctly rounded operations on doubles, so that
+// the scenes are bit-identical on every machine.
 
 #include <array>
 #include <functional>
@@ -41,8 +41,9 @@ using scene::looking;
 // Returns such a scene with the lopsided volume of 24³ voxels.
 [[nodiscard]] StressScene lopsided_scene();
 
-// The image of another variant is expected, whose name in a plan is `data`: either a bit-identical
-// image, or an image that is equal within the sum of both bounds.
+// These functions return the expectation that the image matches the image of another variant, whose
+// name in a plan is `data`. The images must be bit-identical, or equal within the sum of both
+// bounds.
 [[nodiscard]] record::Expectation same_bits_as(const std::string& data, std::string what);
 [[nodiscard]] record::Expectation same_within_bounds_as(const std::string& data, std::string what);
 

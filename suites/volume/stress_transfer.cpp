@@ -34,7 +34,7 @@ StressScene from_within(const scene::TransferFunction& function) {
 // differ because of rounding.
 record::Expectation every_sample(double least_length, double step_voxels) {
   const double least = std::floor(least_length / step_voxels) - 2;
-  return {fmt::format("at least {} samples for every ray that meets the volume", least),
+  return {fmt::format("at least {} samples for every ray that hits the volume", least),
           record::CountAtMost{.counter = "rays_hit", .factor = 1 / least, .of = "samples"}};
 }
 
@@ -159,8 +159,8 @@ StressScene stress_transparent(std::string_view /*variant*/) {
   scene.expectations = {{"exactly the background, because nothing is added to 0",
                          record::OneColour{scene.background}}};
   scene.when_skipping = {
-      {"at most one sample per ray, because the last sample may be beyond the last brick, and then "
-       "no brick shows that it is transparent",
+      {"at most one sample per ray, because the last sample may be beyond the last brick, where no "
+       "brick marks it as transparent",
        record::CountAtMost{.counter = "samples", .factor = 1, .of = "rays_hit"}}};
   scene.when_leaping = {{"no sample, because no brick is visible",
                          record::CountAtMost{.counter = "samples", .factor = 0}}};

@@ -23,7 +23,8 @@ void store(scene::Volume& volume, scene::ScalarType type, double scale) {
   }
 }
 
-// In the bright blob of the lopsided field, a block of voxels has the value `value`.
+// Returns a scene in which a block of voxels in the bright blob of the lopsided field has the value
+// `value`.
 StressScene with_block(double value, int extent) {
   const Size size{24, 24, 24};
   return seen_from_outside(volume_of(size, [&](int i, int j, int k) {
@@ -33,7 +34,7 @@ StressScene with_block(double value, int extent) {
   }));
 }
 
-// Every second voxel has the value `value`.
+// Returns a scene in which every second voxel has the value `value`.
 StressScene with_every_second(double value) {
   const Size size{24, 24, 24};
   return seen_from_outside(volume_of(size, [&](int i, int j, int k) {
@@ -43,7 +44,8 @@ StressScene with_every_second(double value) {
 
 }  // namespace
 
-// The same 256 values as bytes, as 16-bit integers and as floats: v/255 = 257·v/65535.
+// The variants store the same 256 values as bytes, as 16-bit integers and as floats:
+// v/255 = 257·v/65535.
 StressScene stress_format(std::string_view variant) {
   const Size size{24, 24, 24};
   const auto byte = [&](int i, int j, int k) {
@@ -64,7 +66,7 @@ StressScene stress_format(std::string_view variant) {
 }
 
 // NaN becomes the lower end of the range, where the transfer function is transparent. Within one
-// voxel of it, the field is interpolated towards that value, and for the gradients of shading
+// voxel of a NaN, the field is interpolated towards this value. Gradients for shading are affected
 // within two voxels.
 StressScene stress_nan(std::string_view variant) {
   const bool missing = variant.starts_with("nan");
@@ -75,8 +77,9 @@ StressScene stress_nan(std::string_view variant) {
                                         : with_block(value, 1);
   scene.shaded = kind == "shaded";
   if (missing) {
-    scene.expectations = {same_bits_as("stress:nan:zero_" + std::string(kind),
-                                       "the same bits as with 0 instead of NaN")};
+    scene.expectations = {
+        same_bits_as("stress:nan:zero_" + std::string(kind),
+                     "an image that is bit-identical to that with 0 instead of NaN")};
   }
   return scene;
 }
@@ -87,8 +90,9 @@ StressScene stress_infinite(std::string_view variant) {
   if (variant == "lower") return with_block(0, 3);
   const bool plus = variant == "plus";
   StressScene scene = with_block(plus ? infinite : -infinite, 3);
-  scene.expectations = {same_bits_as(plus ? "stress:infinite:upper" : "stress:infinite:lower",
-                                     "the same bits as with that end of the range instead of ∞")};
+  scene.expectations = {same_bits_as(
+      plus ? "stress:infinite:upper" : "stress:infinite:lower",
+      "an image that is bit-identical to that with this end of the range instead of ∞")};
   return scene;
 }
 
@@ -158,7 +162,8 @@ StressScene stress_flat(std::string_view variant) {
   return scene;
 }
 
-// One lit voxel among bricks of 8³ voxels. The samples that see it may be in neighbouring bricks.
+// There is one visible voxel among bricks of 8³ voxels. Samples that read this voxel may be in
+// neighbouring bricks.
 StressScene stress_lit(std::string_view variant) {
   const Size size{24, 24, 24};
   Size lit{8, 12, 12};  // on a face

@@ -144,10 +144,11 @@ std::uint64_t budget_of(const measure::Configuration& configuration) {
   return static_cast<std::uint64_t>(measure::as_number(configuration, "budget") * (1U << 20U));
 }
 
-// Returns the device's default path, but without the device's sampler in three cases. With
-// precision fp64, a sampler would not interpolate in double precision; integers are also not stored
-// as floats then, because that would round them. Quadrature cells needs no sampler. In a volume in
-// parts, a sampler would round differently than in the whole volume.
+// Returns the device's default path, but without the hardware sampler in three cases. With
+// precision=fp64, a hardware sampler would not interpolate in double precision; in addition,
+// integers are not stored as floats, because that would round them. quadrature=cells needs no
+// sampler. In a volume that is drawn in parts, a hardware sampler would round differently than in
+// the whole volume.
 measure::VolumePath default_path(const measure::Device& device, measure::VolumeKind volume,
                                  const measure::Configuration& configuration,
                                  scene::Quadrature quadrature) {
@@ -257,8 +258,8 @@ accuracy::ExpectedRay VolumeSuite::expected_ray(const Configuration& configurati
   return pixel_history(pictured, model, x, y);
 }
 
-// Returns the hash of the file of a transfer function. The keys of images contain it, because the
-// factor contains only the name of the file.
+// Returns the part of an image's key that contains the hash of the transfer function's file. It is
+// necessary because the factor contains only the name of the file.
 std::string table_text(const Configuration& configuration,
                        const scene::TransferFunction& function) {
   if (configuration.at("transfer_function") == own_level) return {};
@@ -323,8 +324,8 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
   }
   // With merged samples, the images are close but not bit-identical.
   if (levels_of(configuration, stress).adapt() > 0) return result;
-  result.push_back(
-      {"the same bits as without skipping", record::SamePicture{.changed = {{"skip", "none"}}}});
+  result.push_back({"an image that is bit-identical to that without skipping",
+                    record::SamePicture{.changed = {{"skip", "none"}}}});
   return result;
 }
 
@@ -344,7 +345,7 @@ std::string VolumeSuite::limit_key(const Configuration& configuration) {
 }
 
 measure::Limit VolumeSuite::limit(const Configuration& configuration) {
-  // No larger than the rounding of a float image with values up to 1.
+  // The tolerance does not exceed the rounding error of a float image with values up to 1.
   constexpr double tolerance = 0x1.0p-24;
   const reference::Truth truth = reference::render_volume_converged(
       scene(configuration, load_as_it_is(configuration)), tolerance);

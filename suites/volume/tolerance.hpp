@@ -15,7 +15,7 @@ struct PathPrecision {
   double adapt = 0;  // allowed error of merged samples (technique::brick_kinds)
   // The error of the device's sampler, measured by a probe (measure::Device).
   double filter_weight_error = 0;
-  double storage_step = 0;    // normalised value per step of a voxel format that loses values
+  double storage_step = 0;    // normalised value per step of a voxel format that loses precision
   double voxel_rounding = 0;  // relative error of each voxel, for a format that rounds
   technique::Precision precision = technique::Precision::fp32;
 };
@@ -31,7 +31,7 @@ struct PathPrecision {
 //        rays enter; 0 if the eye is inside
 //   L    diagonal of the box
 // D, T and L are in units of the smallest spacing. The error of a direction is relative to its
-// whole length, whatever the spacing along the axis on which the error moves a sample.
+// whole length, regardless of the spacing along the axis on which the error moves a sample.
 //   - Eye: eye/spacing is rounded once, u·|e|.
 //   - Direction: a sum of three products has an error of at most 6u of its length, including the 4
 //     operations for the normalised device coordinates. Normalising it adds 3u for the dot product,
@@ -61,8 +61,8 @@ struct PathPrecision {
 //     the largest stored value.
 //   - stored·scale + offset adds 2u. The sum is 11u·M, with M = |scale|·stored_max + |offset|.
 //   - The position in the table, 256·x − ½, adds u twice. The sum is 13u·M.
-//   - If the voxel format loses values, half a storage step is added.
-//   - Quadrature cells computes a cubic from the eight voxels. Its terms are sums of products of at
+//   - If the voxel format loses precision, half a storage step is added.
+//   - quadrature=cells computes a cubic from the eight voxels. Its terms are sums of products of at
 //     most four factors. Each has an error of 6u, and together they are at most 14 times the range
 //     R of the format, which adds 84u·R.
 //
@@ -77,7 +77,7 @@ struct PathPrecision {
 // between equal voxels. The voxels of the probe differ by the whole range, so the probe measures
 // both errors together. Its result is therefore also used as an absolute error of the value.
 //
-// 5. Table. Interpolation between two entries has an error of 3u. With quadrature preintegrated it
+// 5. Table. Interpolation between two entries has an error of 3u. With quadrature=preintegrated, it
 // is 4u, because the opacity in the middle of a part of a cell is rounded once more.
 //
 // 6. Opacity, relative.
