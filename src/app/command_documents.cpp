@@ -82,9 +82,7 @@ lists these variables.
 std::string manual(const CLI::App& program) {
   std::string text = fmt::format(
       ".TH TRIPTYCH 1 \"\" \"triptych {}\"\n.SH NAME\ntriptych \\- check the images, work and cost "
-      "of "
-      "GPU "
-      "drivers\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... [PLAN]...\n.SH DESCRIPTION\n"
+      "of GPU drivers\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... [PLAN]...\n.SH DESCRIPTION\n"
       "{}.\n.PP\n.B triptych gate \\-\\-measure\nmeasures and judges every device found.\n.SH "
       "COMMANDS\n",
       roff(version()), roff(program.get_description()));

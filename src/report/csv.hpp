@@ -23,7 +23,7 @@ using Cell = std::variant<std::monostate, std::string, double, std::uint64_t>;
 
 class CsvFile {
  public:
-  // Replaces the file. All functions of this class throw core::IoError.
+  // Replaces the file. All functions of this class throw core::IoError if writing fails.
   CsvFile(std::filesystem::path file, std::span<const std::string> columns);
   void add(std::span<const Cell> row);  // `row` has one cell for each column
   void close();                         // writes everything to the file

@@ -1,7 +1,7 @@
 #pragma once
-// The HTML that the pages need. Markup has its own type, Html, which can be created only from
-// format strings in this program and from escaped text. So a name from a store cannot inject an
-// element, even if somebody forgets to escape it.
+// Functions that generate the HTML of the pages. Markup has its own type, Html, which can be
+// created only from format strings in this program and from escaped text. So a name from a store
+// cannot inject an element, even if somebody forgets to escape it.
 
 #include <fmt/format.h>
 

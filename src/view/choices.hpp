@@ -27,8 +27,8 @@ class Choices {
     return standard_.at(factor);
   }
 
-  // Sets a factor to a level, which is converted to its canonical spelling. Returns an empty
-  // string, or the reason if the level is rejected. In that case the configuration does not change.
+  // Sets a factor to a level, which is converted to its canonical spelling. Returns an empty string
+  // on success. If the level is rejected, returns the reason and does not change the configuration.
   [[nodiscard]] std::string set(const std::string& factor, std::string_view value);
   // Restores the configuration that the window showed first.
   void reset() { now_ = first_; }

@@ -103,7 +103,7 @@ void judge_orders(const RunView& view, const accuracy::AccuracyScene& scene,
   }
 }
 
-// Collects the scenes, one for each device and limit, in the order in which they are added.
+// Collects the scenes, one for each device and limit image, in the order in which they are added.
 class Scenes {
  public:
   // A configuration with the level `auto` counts as the same case as the configuration with the

@@ -17,8 +17,8 @@
 namespace triptych::judge {
 namespace {
 
-// Converts a change. Its name is the statistic, preceded by the executable if several executables
-// changed.
+// Converts a CodeChange to a Change. The name of the result is the name of the statistic, preceded
+// by the name of the executable if several executables changed.
 Change change_of(const CodeChange& change, bool several) {
   const std::string_view name =
       change.statistic.name.empty() ? std::string_view(change.driver_name) : change.statistic.name;
@@ -117,7 +117,8 @@ class DeviceCodeCheck {
         finding_about(view_, device_, Check::code, verdict, std::move(what), std::move(advice)));
   }
 
-  // Compares with another driver version, which has another compiler. Reports only totals.
+  // Compares the code statistics with those of another driver version. Reports only totals, because
+  // the compilers differ.
   void tell_other(std::vector<Finding>& findings) const {
     const DriverCode* other = nullptr;
     for (const auto& [driver, code] : view_.baselines.code_of_all_drivers()) {

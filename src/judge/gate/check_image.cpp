@@ -108,7 +108,7 @@ class SceneJudge {
     }
   }
 
-  // Checks whether the reference image is the accepted one, once for each scene.
+  // Checks, once for each scene, whether the reference image has changed since it was accepted.
   void check_truth(const TruthPair& pair) {
     if (truth_checked_ || !view_.baselines.present()) return;
     truth_checked_ = true;

@@ -40,7 +40,7 @@ Finding judge(const record::Record& record, const record::Counts& stored) {
       {.cause = Cause::values_changed, .against = Against::baseline, .changes = changes});
 }
 
-// The configurations of a device whose memory cannot be compared.
+// The configurations for which the memory allocated on a device cannot be compared.
 struct Untold {
   bool accepted = false;          // whether memory is stored for some configuration of the device
   std::size_t told = 0;           // number of configurations for which the device reports memory

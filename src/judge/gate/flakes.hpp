@@ -15,7 +15,7 @@ namespace triptych::judge {
 
 using Places = std::set<std::pair<std::string, std::string>>;  // device, configuration
 
-// Returns the places whose configuration has a regression.
+// Returns the device and the configuration of each regression.
 [[nodiscard]] Places failing(const GateResult& result);
 
 struct Redrawn {

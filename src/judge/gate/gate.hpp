@@ -88,8 +88,8 @@ struct GateRequest {
   // If true, a configuration is a regression if the whole 95 % confidence interval of its slowdown
   // lies above 2 %. If false, times do not affect the verdict.
   bool times_decide = false;
-  // The hash and the configuration keys of the current plan, to recognize a run of another plan.
-  // Empty if they are not known.
+  // The hash and the configuration keys of the current plan, to recognize a run of another version
+  // of the plan. Empty if they are not known.
   std::string plan_hash = {};
   std::vector<std::string> expected = {};
   // The default levels that configuration keys omit, for the factors that the plan names.

@@ -8,9 +8,9 @@
 
 namespace triptych::judge {
 
-// Returns by how much each counter of a record may differ between two correct devices, by name of
-// the counter (SuiteWithTruth::open_counts). Throws core::Error if the scene is not available on
-// this machine; OpenCounts then allows no difference.
+// Returns the largest difference that two correct devices may have in each counter of a record, by
+// the name of the counter (SuiteWithTruth::open_counts). Throws core::Error if the scene is not
+// available on this machine; OpenCounts then allows no difference.
 using FindOpenCounts = std::function<std::map<std::string, double>(const record::Record&)>;
 
 // The differences in one record's counters that rounding and rasterization can cause. They are

@@ -41,7 +41,7 @@ void add_pixel(Observation& what, const std::string& prefix, const std::array<fl
   }
 }
 
-// Compares two images pixel by pixel. fits() must be true for them.
+// Compares two images pixel by pixel. Requires that fits() returns true for the images.
 class SameJudge {
  public:
   SameJudge(const record::SamePicture& rule, const Judged& one, const Judged& other)

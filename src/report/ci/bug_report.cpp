@@ -48,8 +48,8 @@ constexpr std::array files{
         "beyond it"},
     File{"dump",
          "everything that the driver receives: device code, options and buffers; for some "
-         "techniques, "
-         "also a C program that draws the frame; `compile.sh` compiles the device code"},
+         "techniques, also a C program that draws the frame; `compile.sh` compiles the device "
+         "code"},
     File{"dump/pixel.txt",
          "the device's intermediate results for one wrong pixel, with the first difference marked"},
 };

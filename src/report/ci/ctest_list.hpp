@@ -1,6 +1,6 @@
 #pragma once
-// Generates the CTest tests for plans and devices. Each device measures a plan once, in a fixture,
-// and the tests of the checks judge the records in the store.
+// Generates the CTest tests for plans and devices. For each plan and device, a fixture measures
+// once, and one test for each check judges the records in the store.
 
 #include <span>
 #include <string>
@@ -15,9 +15,9 @@ struct PlanTests {
   std::string suite;
   std::string plan;   // the plan as a command-line argument
   std::string stem;   // the names of the plan's tests begin with this
-  std::string store;  // the file to which its records are written
+  std::string store;  // the file to which the plan's records are written
   record::Checks checks;
-  // If several devices have the same driver, only the first one measures the plan.
+  // If several devices have the same driver, the plan is measured only on the first of them.
   bool one_per_driver = false;
 };
 

@@ -212,8 +212,7 @@ constexpr Beside beside_time[]{
      "and images. Packed cells need four or eight times as much memory as the voxels."},
     {Cost::energy, "Energy against error",
      "Error against the energy per frame according to the machine’s meters, which also measure "
-     "idle "
-     "power and other programs."}};
+     "idle power and other programs."}};
 
 Html charts_beside(const std::vector<AccuracyScene>& scenes) {
   Html text;

@@ -37,8 +37,8 @@ Html fit_text(const CorrelationPair& pair) {
                       : markup("<b class=\"cannot_judge\">Refused</b>: {}", words::refusal(line)));
 }
 
-// Converts a pair to a figure, with its logarithms converted to millions of instructions or to
-// milliseconds.
+// Converts a pair to a figure. The logarithms in the pair are converted to millions of instructions
+// or to milliseconds.
 ScatterFigure scatter_of(const CorrelationPair& pair) {
   const bool cost = pair.signal == "cost";
   const double unit = std::log(1e-6);  // instructions in millions, nanoseconds in milliseconds

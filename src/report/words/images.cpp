@@ -110,8 +110,7 @@ std::string score(const Observation& what) {
 std::string farther_device(const Observation& what) {
   return fmt::format(
       "the RMS difference from the image of {} is {:.3g}, allowed {:.3g}, and this image is "
-      "farther "
-      "from the reference image (RMSE {:.3g}, compared with {:.3g})",
+      "farther from the reference image (RMSE {:.3g}, compared with {:.3g})",
       what.fact("other"), what.number("rms"), what.number("allowed"), what.number("rmse"),
       what.number("rmse_of_other"));
 }
