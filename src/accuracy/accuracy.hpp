@@ -94,8 +94,8 @@ struct AccuracyFamily {
 [[nodiscard]] std::vector<AccuracyFamily> accuracy_families(std::span<const AccuracyCase> cases);
 
 // Returns the smallest cost of reaching an error, or nullopt if no configuration reaches it. It is
-// either the cost of a configuration whose error is not larger, or the cost of a point between two
-// neighbours in a family, on a straight line in logarithmic axes.
+// either the cost of a configuration whose error is not larger, or a cost that is interpolated
+// between two neighbours in a family, along a straight line on logarithmic axes.
 [[nodiscard]] std::optional<double> cost_to_error(std::span<const AccuracyCase> cases,
                                                   std::span<const AccuracyFamily> families,
                                                   const CostOf& cost_of, double error);
@@ -117,9 +117,9 @@ struct Switched {
 // counterpart is a case that differs only in this factor. The most accurate case may be a different
 // one for every factor, because plans do not contain all combinations.
 [[nodiscard]] std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases);
-// The counterpart of switched_alone() for a single factor that changes the image, so that `cases`
-// and `others` have different limits. Returns the most accurate of `cases` that has a counterpart
-// in `others`, and this counterpart, or nullopt if there is none.
+// Like switched_alone(), but for a single factor that changes the image, so that `cases` and
+// `others` have different limits. Returns the most accurate of `cases` that has a counterpart in
+// `others`, and this counterpart, or nullopt if there is none.
 [[nodiscard]] std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
                                                        std::span<const AccuracyCase> others,
                                                        std::string_view factor);

@@ -1,6 +1,6 @@
 #pragma once
-// Summarises a front of run time against error in one number, for comparing devices that draw the
-// same scene.
+// Summarises a Pareto front of run time against error as a single number, for comparing devices
+// that draw the same scene.
 
 #include <cstddef>
 #include <optional>

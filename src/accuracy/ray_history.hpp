@@ -56,7 +56,7 @@ struct TakenSample {
 
 // The operations of one sample, in the order in which they are computed.
 enum class Operation : std::uint8_t {
-  take,        // the sample is taken once, in its order, and not beyond the ray's end
+  take,        // the sample is taken once, in the correct order, and not beyond the ray's end
   place,       // the position of the sample
   front,       // the value at the beginning of the step
   value,       // the interpolated value

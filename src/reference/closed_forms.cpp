@@ -38,7 +38,8 @@ Radiance v3_segment(const LinearSegment& s) {
 namespace {
 
 // Computes transmittance_integral() by a Taylor series. The differential equation E' = −(a + bt)·E
-// gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁. They are multiplied by lengthⁿ here.
+// gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁. The code computes these coefficients
+// multiplied by lengthⁿ.
 double taylor_integral(double a, double b, double length) {
   const double x = a * length;
   const double y = b * length * length;

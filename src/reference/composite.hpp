@@ -23,8 +23,9 @@ struct Pixel {
 // the transmittance in front of it and the colour behind it. A prime marks the device's quantities.
 // The exact identity
 //   I' − I = Σᵢ T'ᵢ·[(a'ᵢ − aᵢ)(cᵢ − Bᵢ) + a'ᵢ(c'ᵢ − cᵢ)]
-// bounds the difference if each primed quantity is replaced by its maximum. This includes errors of
-// all orders. An object must be used by one thread only. It reuses its memory for the next ray.
+// bounds the difference if each primed quantity is replaced by its maximum. The resulting bound
+// includes errors of all orders. A Compositor must be used by only one thread, because it reuses
+// its memory for the next ray.
 class Compositor {
  public:
   Compositor(const ErrorModel& model, const std::array<float, 4>& background);

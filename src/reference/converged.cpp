@@ -3,11 +3,11 @@
 // this cubic passes an entry of the transfer function. Between two entries, opacity and colour are
 // linear in the cubic. Central differences reach from p − 1 to p + 1, so the gradient g is also a
 // cubic between the same planes. With shading, the ray is also cut where g is perpendicular to the
-// ray direction d and where |g| passes the floor, which are the roots of g·d and of |g|² − floor².
-// The integrand is therefore smooth on every piece, and the three-point Gauss rule has order 6
-// there. A piece is halved until halving changes its light by no more than the piece's share of the
-// tolerance. The stated bound is the sum of these changes. For order 6, it is about sixty times the
-// error.
+// ray direction d and where |g| passes the gradient floor, which are the roots of g·d and of
+// |g|² − floor². The integrand is therefore smooth on every piece, and the three-point Gauss rule
+// has order 6 there. A piece is halved until halving changes its light by no more than the piece's
+// share of the tolerance. The reported bound is the sum of these changes. For order 6, it is about
+// sixty times the error.
 
 #include <algorithm>
 #include <array>
@@ -137,7 +137,7 @@ class ConvergedRaycaster {
     add(light, cell.length, begin, end, light(begin, end), 0);
   }
 
-  // Returns whether everything that follows is invisible at any tolerance.
+  // Returns whether everything behind the current point is invisible, regardless of the tolerance.
   [[nodiscard]] bool dark() const { return sum_.depth > 60.0; }
 
   // Returns whether the piece from a to b is transparent. The piece is between two knots, where the
@@ -212,7 +212,7 @@ class ConvergedRaycaster {
   RayMaker rays_;
   double smallest_spacing_;
   glm::dvec3 gradient_scale_;
-  double share_per_voxel_ = 0;  // share of the tolerance
+  double share_per_voxel_ = 0;  // share of the tolerance per voxel length
   std::vector<double> planes_;
   std::vector<double> cuts_;  // within a cell, from 0 to 1
   PieceLight sum_;            // light of the ray so far

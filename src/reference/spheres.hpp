@@ -32,7 +32,7 @@ struct SphereTruth {
   std::vector<std::uint32_t> ids;     // core::Image::no_particle if none is visible
   std::vector<double> bound;          // per pixel, for any channel; for an uncertain pixel it
                                       // covers everything that a ray within margin_px may show
-  std::vector<double> depth_bound;    // bound of Z; +inf if the pixel is not certain
+  std::vector<double> depth_bound;    // bound on Z; +inf if the pixel is not certain
   std::vector<std::uint8_t> certain;  // 1 or 0
   double coverage = 0;                // share of pixels that show a particle
 

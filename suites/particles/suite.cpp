@@ -246,9 +246,9 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
                      pictured.particles->hash, model_hash, beside_factors(configuration));
 }
 
-// Counters may differ for two reasons. A device with a limited point size draws larger sprites as
-// quads. A device with a coarse vertex grid draws sprites that are larger than on other devices
-// (technique/particles/margins.hpp).
+// Counters may differ between devices for two reasons. A device with a limited point size draws
+// larger sprites as quads. A device with a coarse vertex grid draws sprites that are larger than on
+// other devices (technique/particles/margins.hpp).
 std::map<std::string, double> ParticleSuite::open_counts(
     const Configuration& configuration, const std::map<std::string, double>& precision) {
   std::map<std::string, double> open;

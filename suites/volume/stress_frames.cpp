@@ -1,4 +1,4 @@
-// Cases 51 to 54: properties of the frame.
+// Stress cases 51 to 54, which test properties of the frame.
 
 #include <cmath>
 #include <numbers>

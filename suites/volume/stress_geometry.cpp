@@ -1,4 +1,4 @@
-// Cases 1 to 7 and 14: positions of the eye and directions of rays.
+// Stress cases 1 to 7 and 14, which test positions of the eye and directions of rays.
 
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,4 @@
-// Cases 8 to 13: sizes.
+// Stress cases 8 to 13, which test the size and the spacing of volumes.
 
 #include <cmath>
 #include <glm/geometric.hpp>

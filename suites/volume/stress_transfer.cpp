@@ -1,4 +1,4 @@
-// Cases 20 to 30: transfer functions and steps.
+// Stress cases 20 to 30, which test transfer functions and steps.
 
 #include <fmt/format.h>
 

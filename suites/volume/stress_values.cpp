@@ -1,4 +1,4 @@
-// Cases 15 to 19, 31, 32 and 56: contents of voxels.
+// Stress cases 15 to 19, 31, 32 and 56, which test the contents of voxels.
 
 #include <cmath>
 #include <cstdint>

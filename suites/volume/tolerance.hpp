@@ -11,7 +11,7 @@ namespace triptych::volume_suite {
 
 // The properties of a rendering path on a device that determine its precision.
 struct PathPrecision {
-  double ert = 0;    // ε: a ray may end when less light than this is left
+  double ert = 0;    // ε: transmittance below which a ray may end
   double adapt = 0;  // allowed error of merged samples (technique::brick_kinds)
   // The error of the device's sampler, measured by a probe (measure::Device).
   double filter_weight_error = 0;

@@ -15,7 +15,8 @@ namespace triptych::technique {
 enum class SpriteRasterizer : std::uint8_t { of_the_api, in_tiles };
 
 // Returns why the technique (a name in the catalogue) does not support these options or the
-// injected fault, or nullopt if it supports them. The backends check the capabilities of a device.
+// injected fault, or nullopt if it supports them. It does not consider the capabilities of a
+// device, which the backends check.
 [[nodiscard]] std::optional<std::string> option_reason(std::string_view technique,
                                                        const ParticleOptions& options,
                                                        SpriteRasterizer rasterizer);

@@ -51,7 +51,7 @@ uint depth_seen(ivec2 pixel) { return texelFetch(pixel_texels, pixel_index(pixel
 
 // Returns the rectangle of pixels (x, y, width, height) whose centres the sphere's silhouette may cover; the width is
 // 0 if there are no such pixels. The arithmetic is `precise`, as in front_key, so that tiles_fill writes exactly the
-// entries that tiles_bin counted, for which space is reserved.
+// entries that tiles_bin counted and for which tiles_place reserved space.
 ivec4 pixel_rectangle(vec4 sphere) {
   vec2 low;
   vec2 high;

@@ -4,7 +4,7 @@ layout(location = 0) out vec4 out_colour;
 layout(location = 1) out uint out_id;
 
 struct Shown {
-  uvec2 keys;  // depth and particle
+  uvec2 keys;  // depth key and particle key
   vec4 sphere;
 };
 

@@ -2,11 +2,11 @@
 // space: x to the right, y up, z the distance along the view axis. A ray passes through the point (sx, sy) of the
 // image plane z = 1, so its direction is (sx, sy, 1).
 
-// ---- From world to camera space ------------------------------------------------------------------- The camera
-// coordinate of a centre is axis·(P − eye). If it were computed with plain float arithmetic, it would have the
-// rounding error of the *largest* product, which exceeds a pixel if the field of view is narrow. Here, the rounding
-// errors of all products and sums are also computed, and added at the end (Dekker 1971; Ogita, Rump, Oishi 2005:
-// Dot2). The result is as accurate as if it had been computed in twice the precision and then rounded. Each
+// ---- From world to camera space -------------------------------------------------------------------
+// The camera coordinate of a centre is axis·(P − eye). If it were computed with plain float arithmetic, it would have
+// the rounding error of the *largest* product, which exceeds a pixel if the field of view is narrow. Here, the
+// rounding errors of all products and sums are also computed, and added at the end (Dekker 1971; Ogita, Rump, Oishi
+// 2005: Dot2). The result is as accurate as if it had been computed in twice the precision and then rounded. Each
 // coordinate of the axis and the eye consists of two floats: the nearest float and the remainder.
 
 // Returns the rounding error of sum = a + b.
@@ -59,10 +59,10 @@ TRI_FN float tri_along_axis(float px, float py, float pz, float ex, float ey, fl
   return result;
 }
 
-// ---- Ray and sphere ------------------------------------------------------------------------------- (c, r) is
-// intersected with the ray in direction d = (sx, sy, 1). With q = |d|² and m = c × d, the distance between the ray
-// and the centre is |m|/√q. The cross product preserves the precision that b² − |c|² + r² would lose, because the
-// terms of m are no larger than distances from the centre of the image.
+// ---- Ray and sphere -------------------------------------------------------------------------------
+// (c, r) is intersected with the ray in direction d = (sx, sy, 1). With q = |d|² and m = c × d, the distance between
+// the ray and the centre is |m|/√q. The cross product preserves the precision that b² − |c|² + r² would lose, because
+// the terms of m are no larger than distances from the centre of the image.
 
 TRI_FN float tri_ray_square(float sx, float sy) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
@@ -105,13 +105,13 @@ TRI_FN float tri_depth(float near, float distance) {
   return depth < 1.0f ? depth : 1.0f;
 }
 
-// ---- Where a sphere lies on the image plane ------------------------------------------------------- Returns the
-// exact bounds (low, high) of a sphere along one axis of the image plane (Mara and McGuire 2013). The silhouette is
-// between the two tangents in the plane of that axis and the view axis. Their angles are φ ± β with φ = atan2(a, z)
-// and sin β = r/√(a² + z²). The part within (−90°, 90°) is in front of the eye. A bound of ±3e38 means that the
-// sphere is unbounded in this direction, and low > high means that no part of it is in front of the eye. The
-// arithmetic is `precise`, so that the kernel that counts tile entries and the kernel that writes them compute the
-// same bounds.
+// ---- Where a sphere lies on the image plane -------------------------------------------------------
+// Returns the exact bounds (low, high) of a sphere along one axis of the image plane (Mara and McGuire 2013). The
+// silhouette is between the two tangents in the plane of that axis and the view axis. Their angles are φ ± β with
+// φ = atan2(a, z) and sin β = r/√(a² + z²). The part within (−90°, 90°) is in front of the eye. A bound of ±3e38
+// means that the sphere is unbounded in this direction, and low > high means that no part of it is in front of the
+// eye. The arithmetic is `precise`, so that the kernel that counts tile entries and the kernel that writes them
+// compute the same bounds.
 TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   const float huge = 3.0e38f;
   float side = a < 0.0f ? 0.0f - a : a;  // by symmetry, the sphere may be assumed at a ≥ 0
@@ -139,10 +139,11 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
 // does not exist. The quad is then the whole viewport, which makes this technique expensive for close spheres.
 TRI_FN int tri_eye_plane(float z, float r) { return z + r <= 0.0f ? 0 - 1 : (z - r > 0.001f * r ? 0 : 1); }
 
-// ---- Sprites -------------------------------------------------------------------------------------- A ray-aligned
-// sprite is perpendicular to v = c/|c|. Its distance from the eye is tri_sprite_plane, so it lies just in front of
-// the sphere. Every visible point of the sphere is therefore behind the sprite, as required for conservative depth.
-// In the plane of the sprite, the silhouette is a circle with the radius tri_silhouette_on_plane ≤ r.
+// ---- Sprites --------------------------------------------------------------------------------------
+// A ray-aligned sprite is perpendicular to v = c/|c|. Its distance from the eye is tri_sprite_plane, so it lies just
+// in front of the sphere. Every visible point of the sphere is therefore behind the sprite, as required for
+// conservative depth. In the plane of the sprite, the silhouette is a circle with the radius
+// tri_silhouette_on_plane ≤ r.
 
 // Returns 1 if the eye is inside the sphere, or so close to it that the silhouette covers (almost) half of all
 // directions. The sprite is then the whole viewport. d2 = |c|².

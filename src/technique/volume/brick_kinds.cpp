@@ -108,7 +108,7 @@ class Merging {
     const glm::dvec3 scale(voxel / scene.grid->spacing[0], voxel / scene.grid->spacing[1],
                            voxel / scene.grid->spacing[2]);
     steepest_ = 0.5 * glm::length(scale) / light_.gradient_floor;
-    colour_range_ = 1;  // range of opacities
+    colour_range_ = 1;  // opacities range from 0 to 1
     for (std::size_t c = 0; c < 3; ++c) {
       const double most = lit(function_.overall().largest[c], 1.0);
       const auto behind = static_cast<double>(scene.background[c]);

@@ -15,7 +15,7 @@ namespace triptych::technique {
 // How a ray treats a brick. The kernels use the same numbers.
 enum class BrickKind : std::int32_t {
   invisible = 0,  // the ray skips the brick
-  sampled = 1,    // the ray takes the samples of the lattice
+  sampled = 1,    // the ray takes its regular samples
   merged = 2,     // the ray takes one sample in the middle of its chord, with the chord's opacity
   // This and all larger numbers denote homogeneous bricks; each number stands for one value.
   // Consecutive bricks along a ray with the same number are merged into one sample.

@@ -21,7 +21,7 @@ int overlap(const scene::VolumeScene& scene) {
   constexpr double widened_and_rounded = 2;
   double cells = widened_and_rounded + (scene.shading.enabled ? 1 : 0);
   // A step is given in units of the smallest spacing, and the spacing along z is not smaller than
-  // that.
+  // that. A step therefore crosses at most ⌈step⌉ cells along z.
   if (scene.quadrature == scene::Quadrature::preintegrated) cells += std::ceil(scene.step_voxels);
   return static_cast<int>(std::min(cells, static_cast<double>(cells_of(scene))));
 }

@@ -31,8 +31,8 @@ struct Part {
   bool operator==(const Part&) const = default;
 };
 
-// Describes how a backend stores cells: in layers of `bytes` bytes each. A part has at most `more`
-// more layers than cells. `whole` is the size of the whole volume in bytes.
+// Describes how a backend stores cells: in layers of `bytes` bytes each. A part with n cells needs
+// n + `more` layers. `whole` is the size of the whole volume in bytes.
 struct Layers {
   std::uint64_t bytes = 0;
   int more = 0;
@@ -44,9 +44,9 @@ struct Layers {
   // Returns the size of the largest part in bytes, or of the whole volume if there are no parts.
   [[nodiscard]] std::uint64_t room_for(std::span<const Part> parts) const;
 };
-// The layers for plain slices.
+// Returns the layers for plain slices.
 [[nodiscard]] Layers slice_layers(const std::array<int, 3>& size, scene::VoxelFormat format);
-// The layers for Sampler::packed.
+// Returns the layers for Sampler::packed.
 [[nodiscard]] Layers packed_layers(const std::array<int, 3>& size, scene::VoxelFormat format);
 // Returns packed_layers for Sampler::packed, and slice_layers for every other sampler.
 [[nodiscard]] Layers layers_of(const scene::VolumeScene& scene, const RaycastOptions& options);

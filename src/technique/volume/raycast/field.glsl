@@ -130,7 +130,8 @@ real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
   real cosine = abs(dot(g, d)) / max(sqrt(dot(g, g)), u.ray_up.w);
   real highlight = cosine;
 #if TRI_LONG_RAYS
-  // Compilers unroll a loop of constant length, so its iterations do not count towards the limit (see raycast()).
+  // Compilers unroll a loop of constant length, so it does not count towards the limit on iterations (see
+  // raycast()).
   for (int i = 0; i < 31; ++i) highlight *= i < u.volume_size.w ? highlight : 1.0;
 #else
   // min(0, int(cosine)) is always 0 but depends on the sample, as in skips(). Without it, lavapipe (Mesa 22.3)

@@ -152,7 +152,7 @@ void add_part(inout Light light, Grid grid, Ray ray, vec4 c, float s, float next
               float step_voxels) {
   float middle = 0.5 * (s + next);
   float apart = 0.2886751346 * (next - s);
-  // transfer() expects a value; the value at position p is (p + ½)/256.
+  // transfer() expects a normalised value, which is (p + ½)/256 for position p in the table.
   vec4 a = transfer((cubic(c, middle - apart) + 0.5) / 256.0);
   vec4 b = transfer((cubic(c, middle + apart) + 0.5) / 256.0);
   if (TRI_COUNT == 1) count_samples += 2u;
