@@ -1,6 +1,6 @@
 #pragma once
-// Finds the cheapest settings for a requested error: the longest possible step, and the fastest of
-// the measured configurations that do not exceed the error.
+// Finds the cheapest settings for a requested error: the longest possible step, and the fastest
+// measured configuration that does not exceed the error.
 
 #include <cstddef>
 #include <functional>

@@ -1,6 +1,6 @@
 #pragma once
 // The parts of an analytic scene (analytic_scenes.hpp): the medium in its box, and the closed-form
-// solution of a pixel for each kind of problem.
+// solution of a pixel for each problem.
 
 #include <array>
 #include <functional>

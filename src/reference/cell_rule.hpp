@@ -226,7 +226,8 @@ class CellRule {
     return error;
   }
 
-  // Returns bounds of the values on the part, from the Bernstein coefficients of the cubic.
+  // Returns bounds on the values along the part, which are the extremes of the cubic's Bernstein
+  // coefficients.
   [[nodiscard]] static Range bounds(const Cubic& cubic) {
     const double b0 = cubic.c0;
     const double b1 = b0 + cubic.c1 / 3.0;

@@ -161,7 +161,7 @@ class Counter {
   }
 
  private:
-  // Returns the number of steps in a chord, not rounded to a whole number.
+  // Returns the number of steps in a chord, not rounded to an integer.
   [[nodiscard]] double steps(double chord) const {
     return chord / (smallest_spacing_ * scene_.step_voxels);
   }

@@ -26,8 +26,8 @@ struct PieceLight {
   }
 };
 
-// Returns the largest difference in any channel between two results for a piece, whatever colour in
-// [0, 1] is behind the piece.
+// Returns the largest difference in any channel between two results for a piece, for any colour in
+// [0, 1] behind the piece.
 [[nodiscard]] inline double difference(const PieceLight& a, const PieceLight& b) {
   const double opacity = a.opacity() - b.opacity();
   double largest = std::abs(opacity);

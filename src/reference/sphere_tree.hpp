@@ -17,8 +17,8 @@
 namespace triptych::reference {
 
 // Nodes are split at the median centre along the widest axis, so that neither clusters nor a giant
-// sphere among small ones make the tree deeper than ⌈log₂(count/4)⌉ levels. The tree needs at most
-// 52 bytes per sphere.
+// sphere among small spheres makes the tree deeper than ⌈log₂(count/4)⌉ levels. The tree needs at
+// most 52 bytes per sphere.
 class SphereTree {
  public:
   struct Sphere {

@@ -7,7 +7,7 @@
 
 namespace triptych::particles_suite {
 
-// The suite's factors, with their levels and defaults.
+// Returns the suite's factors, with their levels and defaults.
 [[nodiscard]] const std::vector<measure::Factor>& particle_factors();
 
 // Checks a level of a factor whose kind does not define which levels are valid: camera, data,

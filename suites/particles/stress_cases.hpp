@@ -30,7 +30,7 @@ struct StressCase {
   std::string_view expected;               // the expected result, and why it is achievable
   std::vector<std::string_view> variants;  // empty if the case has only one scene
 };
-// All cases, sorted by number.
+// Returns all cases, sorted by number.
 [[nodiscard]] const std::vector<StressCase>& stress_cases();
 
 using StressData = measure::StressChoice<StressCase>;
@@ -51,7 +51,7 @@ struct StressScene {
 };
 [[nodiscard]] StressScene stress_scene(const StressData& data, scene::ColourKind colour);
 
-// The expectations of the case, in addition to its error bound.
+// Returns the expectations of the case, in addition to its error bound.
 [[nodiscard]] std::vector<record::Expectation> stress_expectations(const StressData& data);
 
 }  // namespace triptych::particles_suite

@@ -1,4 +1,4 @@
-// Stress scenes that test properties of the particle set, and of the image that it is drawn into.
+// Stress scenes that test properties of the particle set, and of the image into which it is drawn.
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -14,7 +14,7 @@ double fov_of(double height, double distance) {
   return 2 * std::atan(height / (2 * distance)) * 180 / std::numbers::pi;
 }
 
-// A sphere of radius 1 at the origin, and a small one that sticks out of it.
+// Adds a sphere of radius 1 at the origin, and a small sphere that sticks out of it.
 void add_pair(StressMaker& maker) {
   maker.add({0, 0, 0}, 1);
   maker.add({1.2, 0.3, 0.1}, 0.2);

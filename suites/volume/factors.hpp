@@ -6,7 +6,7 @@
 
 namespace triptych::volume_suite {
 
-// The suite's factors, with their levels and defaults.
+// Returns the suite's factors, with their levels and defaults.
 [[nodiscard]] const std::vector<measure::Factor>& volume_factors();
 
 // Checks a level of a factor whose kind does not define which levels are valid, such as camera,

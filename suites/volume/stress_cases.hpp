@@ -51,7 +51,7 @@ struct StressCase {
   std::vector<std::string_view> variants;  // empty if the case has only one scene
   StressScene (*scene)(std::string_view variant) = nullptr;
 };
-// All cases, sorted by number.
+// Returns all cases, sorted by number.
 [[nodiscard]] const std::vector<StressCase>& stress_cases();
 
 using StressData = measure::StressChoice<StressCase>;

@@ -38,7 +38,8 @@ record::Expectation every_sample(double least_length, double step_voxels) {
           record::CountAtMost{.counter = "rays_hit", .factor = 1 / least, .of = "samples"}};
 }
 
-// A cube of 4³ voxels, seen along its length from one end, with few rays and many samples.
+// Returns a scene with a cube of 4³ voxels, seen along its length from one end, with few rays and
+// many samples.
 StressScene marched(double step_voxels, int pixels) {
   StressScene scene = lopsided_scene();
   scene.volume = volume_of(
@@ -52,8 +53,8 @@ StressScene marched(double step_voxels, int pixels) {
 
 }  // namespace
 
-// The eye is inside the volume. The first sample of every ray hides everything behind it, however
-// short it is.
+// The eye is inside the volume. The first sample of every ray hides everything behind it,
+// regardless of the length of the sample.
 StressScene stress_solid(std::string_view /*variant*/) {
   StressScene scene = from_within(uniform(orange));
   scene.expectations = {{"exactly the function's colour, because 1 − (1 − 1)^s is exactly 1",

@@ -96,9 +96,9 @@ StressScene stress_infinite(std::string_view variant) {
   return scene;
 }
 
-// Denormals in data and transfer function are replaced by 0 before they reach a device. Denormals
-// that a ray computes may be kept or replaced by 0, which changes no channel of the image by more
-// than 2⁻¹²⁶.
+// Denormals in the data and in the transfer function are replaced by 0 before they reach a device.
+// Denormals that a ray computes may be kept or replaced by 0, which changes no channel of the image
+// by more than 2⁻¹²⁶.
 StressScene stress_denormal(std::string_view variant) {
   constexpr double tiny = 1e-40;
   if (variant == "voxels") {

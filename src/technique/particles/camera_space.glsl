@@ -11,7 +11,8 @@ vec4 camera_space(vec4 s) {
       s.w);
 }
 
-// Returns the point where the ray through the centre of pixel (x, y) meets the image plane. Row 0 is the top row.
+// Returns the point where the ray through the centre of pixel (x, y) intersects the image plane. Row 0 is the top
+// row.
 vec2 pixel_ray(ivec2 pixel) {
   TRI_PRECISE float sx = (float(pixel.x) + 0.5) * u.plane.z - u.plane.x;
   TRI_PRECISE float sy = u.plane.y - (float(pixel.y) + 0.5) * u.plane.w;

@@ -11,7 +11,8 @@
 namespace triptych::technique {
 
 // The implementation that determines which pixels a sprite covers: the API's rasterizer, or kernels
-// that bin sprites into tiles with work groups. Some faults can be injected into only one of them.
+// that use work groups to bin sprites into tiles. Some faults can be injected into only one of
+// them.
 enum class SpriteRasterizer : std::uint8_t { of_the_api, in_tiles };
 
 // Returns why the technique (a name in the catalogue) does not support these options or the

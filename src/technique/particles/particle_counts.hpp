@@ -52,7 +52,7 @@ struct CountedFrame {
 //   sprites               particles whose sprite (for tiles: pixel rectangle) is not empty
 //   vertices              corners of the non-empty sprites (0 for tiles)
 //   fragments             pixel centres that the sprites cover, before any depth test
-//   fragments_discarded   fragments whose ray misses the sphere or finds it behind another one
+//   fragments_discarded   fragments whose ray hits no point of the sphere in front of the eye
 //   fragments_kept        fragments that were not discarded
 //   bin_entries           (tile, particle) pairs, for tiles and for OpenCL's rasterizer
 //   nodes_visited         for rays: inner nodes of the hierarchy whose children were tested

@@ -9,8 +9,8 @@ namespace triptych::technique {
 // The stage that computes a quantity, if both the vertex stage and the fragment stage could compute
 // it.
 enum class ComputedAt : std::uint8_t { vertex, pixel };
-// The cells that are culled: none, those outside the view, or those outside the view and hidden
-// ones.
+// The cells that are culled: none, the cells outside the view, or the cells outside the view and
+// the hidden cells.
 enum class Culling : std::uint8_t { none, frustum, occlusion };
 // What each frame does to the hierarchy or acceleration structure before rays traverse it: nothing,
 // because it was built when the scene was prepared; refit its boxes to spheres that have moved; or

@@ -86,12 +86,13 @@ ivec4 tiles_around(ivec4 rectangle) {
   return ivec4(tile_index(a), tile_index(b), tile_index(ivec2(a.x, b.y)), tile_index(ivec2(b.x, a.y)));
 }
 
-// Returns the farthest depth key of these tiles.
+// Returns the farthest depth key of the tiles that a small rectangle overlaps.
 uint farthest_around(ivec4 rectangle) {
   ivec4 around = tiles_around(rectangle);
   return min(min(farthest_in(around.x), farthest_in(around.y)),
              min(farthest_in(around.z), farthest_in(around.w)));
 }
 
-// A small rectangle touches at most 2×2 tiles, because no side is longer than a tile.
+// Returns whether a rectangle is small. A small rectangle overlaps at most 2×2 tiles, because its sides are shorter
+// than a tile.
 bool is_small(ivec4 rectangle) { return max(rectangle.z, rectangle.w) <= TRI_SMALL_EDGE; }

@@ -123,7 +123,7 @@ class OpaqueRanges {
   std::array<int, entries + 1> opaque_before_{};  // [k]: number of opaque entries before entry k
 };
 
-// Every Vulkan device can bind a buffer of this many bytes (maxStorageBufferRange).
+// The number of bytes of a buffer that every Vulkan device can bind (maxStorageBufferRange).
 constexpr std::uint64_t most_map_bytes = 1U << 27U;
 
 BrickLayout bricks_of_cells(const std::array<int, 3>& size) {

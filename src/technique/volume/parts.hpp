@@ -51,8 +51,8 @@ struct Layers {
 // Returns packed_layers for Sampler::packed, and slice_layers for every other sampler.
 [[nodiscard]] Layers layers_of(const scene::VolumeScene& scene, const RaycastOptions& options);
 
-// The number of bytes of device memory that voxels may take, and the name of this limit: the
-// device's own limit, or the budget in the options if that is lower.
+// The maximum number of bytes of device memory for voxels, and the name of this limit, which is the
+// device's own limit or, if it is lower, the budget in the options.
 struct Room {
   std::uint64_t bytes = 0;
   std::string limit;

@@ -72,7 +72,7 @@ void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step
     m.light.transmittance -= m.light.transmittance * segment.a;
   }
 #if TRI_TRACE
-  traced_value = m.front;  // value at the end of this step, or of this part of it
+  traced_value = m.front;  // value at the end of this step or of the processed part
   traced_opacity = segment.a;
   real4 straight = vec4(segment.a > 0.0 ? segment.rgb / segment.a : vec3(0.0), segment.a);
   trace(2u, ray.p0 + (0.5 * (real(m.i) + end)) * ray.g, straight, length, m.light);
