@@ -20,8 +20,8 @@ bool hidden(Cell cell) {
   vec2 high;
   image_bounds(around, low, high);
   if (front <= u.eye.w || low.x > high.x || low.y > high.y) return false;
-  // Pixel (x, y) looks through the point ((x + ½)·plane.z − plane.x, plane.y − (y + ½)·plane.w) of the image plane.
-  // One pixel is added on each side.
+  // The ray of pixel (x, y) passes through the point ((x + ½)·plane.z − plane.x, plane.y − (y + ½)·plane.w) of the
+  // image plane. One pixel is added on each side.
   vec2 first = vec2(low.x + u.plane.x, u.plane.y - high.y) / u.plane.zw - 1.5;
   vec2 last = vec2(high.x + u.plane.x, u.plane.y - low.y) / u.plane.zw + 0.5;
   ivec2 begin = ivec2(clamp(first, vec2(0.0), vec2(u.viewport.xy - 1))) / 16;

@@ -57,7 +57,8 @@ ivec4 pixel_rectangle(vec4 sphere) {
   vec2 high;
   image_bounds(sphere, low, high);
   vec2 size = vec2(u.viewport.xy);
-  // Pixel (x, y) looks through the point ((x + ½)·plane.z − plane.x, plane.y − (y + ½)·plane.w) of the image plane.
+  // The ray of pixel (x, y) passes through the point ((x + ½)·plane.z − plane.x, plane.y − (y + ½)·plane.w) of the
+  // image plane.
   TRI_PRECISE vec2 first = vec2(low.x + u.plane.x, u.plane.y - high.y) / u.plane.zw - 0.5;
   TRI_PRECISE vec2 last = vec2(high.x + u.plane.x, u.plane.y - low.y) / u.plane.zw - 0.5;
   ivec2 begin = ivec2(clamp(ceil(first), vec2(0.0), size));

@@ -109,7 +109,7 @@ Leap leap(Leaps leaps, Ray ray, int i, int end) {
   ivec3 brick = clamp(ivec3(p * leaps.inverse_edge), ivec3(0), leaps.size - 1);
   int signed_reach = brick_at(brick.x + leaps.size.x * (brick.y + leaps.size.y * brick.z));
   int reach = abs(signed_reach);
-  // This is computed axis by axis, because mix() of integers requires GLSL 4.50.
+  // This is computed axis by axis, because mix() on integers requires GLSL 4.50.
   int back = 1 - reach;
   ivec3 face = brick + ivec3(leaps.inverse_g.x < 0.0 ? back : reach, leaps.inverse_g.y < 0.0 ? back : reach,
                              leaps.inverse_g.z < 0.0 ? back : reach);
