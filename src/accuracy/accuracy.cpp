@@ -20,7 +20,7 @@ using Factors = std::map<std::string, std::string>;
 constexpr double coarsest_step = 1;
 constexpr double largest_arithmetic_share = 0.1;
 constexpr std::size_t least_points = 3;
-constexpr double tail = 0.025;  // the share of the distribution on either side of a 95 % interval
+constexpr double tail = 0.025;  // probability of each tail outside a 95 % confidence interval
 
 // Returns the factors whose levels differ among the cases, except for `step`.
 std::set<std::string> telling_factors(std::span<const AccuracyCase> cases) {
@@ -56,8 +56,8 @@ std::optional<Order> order_of(std::span<const AccuracyCase> cases,
   return fit_order(points);
 }
 
-// Returns whether `a` is at least as good as `b` in both cost and error, and better in one of them.
-// Both must have a cost.
+// Returns whether `a` is at least as good as `b` in both cost and error, and better in at least one
+// of them. Requires that both have a cost.
 bool beats(const AccuracyCase& a, const AccuracyCase& b, const CostOf& cost_of) {
   const double cost_a = *cost_of(a);
   const double cost_b = *cost_of(b);
@@ -90,9 +90,9 @@ std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
   return order;
 }
 
-// Returns the cost at which the line through two points, on logarithmic axes, reaches the error, or
-// nullopt if the error is not between the two points, if one of the points has no cost, or if its
-// error is 0.
+// Returns the cost at the given error, interpolated along a straight line between two points on
+// logarithmic axes. Returns nullopt if the error is not between those of the two points, or if one
+// of the points has no cost or an error of 0.
 std::optional<double> cost_between(const AccuracyCase& a, const AccuracyCase& b,
                                    const CostOf& cost_of, double error) {
   const auto of_a = cost_of(a);

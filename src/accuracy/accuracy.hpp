@@ -22,22 +22,22 @@ struct AccuracyCase {
   std::map<std::string, std::string> factors;
   std::optional<double> time_ns;              // median of the timed frames, if any were timed
   std::optional<std::uint64_t> samples;       // number of samples, if they were counted
-  std::optional<std::uint64_t> instructions;  // per frame, if they were counted
-  std::optional<std::uint64_t> fetched;       // bytes per frame that missed a simulated cache
-  std::optional<std::uint64_t> memory;        // bytes on the device, if they were reported
+  std::optional<std::uint64_t> instructions;  // instructions per frame, if they were counted
+  std::optional<std::uint64_t> fetched;       // bytes per frame loaded into a simulated cache
+  std::optional<std::uint64_t> memory;        // bytes allocated on the device, if reported
   std::optional<double> joules;               // energy per frame, if any meter reported it
   double rmse = 0;                            // root mean square deviation from the limit
   double largest = 0;
-  double error_99 = 0;  // 99th percentile of the largest channel errors of the pixels
-  // rmse is split into two parts by the reference image at the device's sample positions. `lattice`
-  // is the difference between the limit and that reference image. `arithmetic` is the difference
+  double error_99 = 0;  // 99th percentile, over the pixels, of the largest channel error
+  // rmse has two components. `lattice` is the difference between the limit image and the reference
+  // image, which is rendered at the device's sample positions. `arithmetic` is the difference
   // between the reference image and the device's image, which is caused by rounding, voxel storage,
   // filtering and early termination.
   double lattice = 0;
   double arithmetic = 0;
 };
 
-// Returns the step in voxels, or nullopt if the configuration has no step.
+// Returns the step size in voxels, or nullopt if the configuration has no step.
 [[nodiscard]] std::optional<double> step_of(const AccuracyCase& each);
 
 // A data point for fitting error ∝ stepᵖ.
@@ -54,8 +54,9 @@ struct Order {
 
 // Fits the least-squares slope of ln error over ln step, with Student's interval, to the points in
 // the asymptotic range:
-//   - step ≤ 1: between planes of voxel centres, the field is one polynomial. A longer step skips
-//     whole pieces, so shortening it is not a refinement.
+//   - step ≤ 1: between neighbouring planes of voxel centres, the field is a single polynomial. A
+//     longer step skips entire polynomial pieces, so its error does not yet follow the order of
+//     convergence.
 //   - arithmetic ≤ error/10: by the triangle inequality, ln error then differs by at most 0.11 from
 //     the logarithm of the part that is caused by the step, and by at most 0.005 if the two parts
 //     are uncorrelated, as rounding errors are.
@@ -64,8 +65,8 @@ struct Order {
 [[nodiscard]] std::optional<Order> fit_order(std::span<const StepError> points);
 
 // Returns the indices of the cases that no other case beats in both cost and error, sorted by cost.
-// Of equal cases, only the first is included. Cases without a cost are left out. Without `cost_of`,
-// the cost is the time.
+// If several cases are equal, only the first is included. Cases without a cost are left out.
+// Without `cost_of`, the cost is the time.
 using CostOf = std::function<std::optional<double>(const AccuracyCase&)>;
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases,
                                                     const CostOf& cost_of);
@@ -89,13 +90,14 @@ struct AccuracyFamily {
   std::vector<std::size_t> members;
   std::optional<Order> order;
 };
-// Groups the cases into families. Without a factor `step`, every configuration forms its own
+// Groups the cases into families. If there is no factor `step`, every configuration forms its own
 // family.
 [[nodiscard]] std::vector<AccuracyFamily> accuracy_families(std::span<const AccuracyCase> cases);
 
-// Returns the smallest cost of reaching an error, or nullopt if no configuration reaches it. It is
-// either the cost of a configuration whose error is not larger, or a cost that is interpolated
-// between two neighbours in a family, along a straight line on logarithmic axes.
+// Returns the lowest cost at which the given error is reached, or nullopt if no configuration
+// reaches this error. The result is either the cost of a configuration whose error is not larger,
+// or a cost interpolated between two neighbours in a family, along a straight line on logarithmic
+// axes.
 [[nodiscard]] std::optional<double> cost_to_error(std::span<const AccuracyCase> cases,
                                                   std::span<const AccuracyFamily> families,
                                                   const CostOf& cost_of, double error);

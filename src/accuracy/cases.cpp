@@ -31,8 +31,9 @@ double root_mean_square(const std::vector<float>& values) {
   return values.empty() ? 0 : std::sqrt(squares / static_cast<double>(values.size()));
 }
 
-// Returns the bytes of buffers and images. `memory` also contains the bytes that a frame uploads,
-// under the key "moved" (measure/contract/memory_ledger.hpp); they are not included.
+// Returns the total size of all buffers and images, in bytes. `memory` also contains the bytes that
+// a frame uploads, under the key "moved" (measure/contract/memory_ledger.hpp); they are not
+// included.
 std::uint64_t bytes_held(const record::Counts& memory) {
   std::uint64_t bytes = 0;
   for (const auto& [kind, of_kind] : memory) bytes += kind == "moved" ? 0 : of_kind;

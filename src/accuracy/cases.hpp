@@ -40,12 +40,12 @@ struct PictureError {
 // One scene on one device.
 struct AccuracyScene {
   std::string device;
-  std::string limit;  // LimitPicture::key: scenes with the same limit show the same image
+  std::string limit;  // LimitPicture::key; equal for scenes with the same limit image
   std::string scene;  // "camera=…,data=…": the levels that all its records have in common
   std::string data;
   double uncertainty = 0;  // root mean square of the limit's uncertainty
-  // Root mean square difference between the limit and the closed-form solution, which grid and
-  // table cannot represent exactly.
+  // Root mean square difference between the limit and the closed-form solution, which the voxel
+  // grid and the transfer-function table cannot represent exactly.
   std::optional<double> representation;
   // Root mean square error caused by storing the limit with 8 bits per channel.
   double eight_bits = 0;
@@ -54,7 +54,7 @@ struct AccuracyScene {
   std::vector<AccuracyFamily> families;
   std::vector<std::size_t> front;
   std::vector<Dominated> dominated;
-  std::optional<FrontArea> area;  // only if anything was timed
+  std::optional<FrontArea> area;  // set only if any configuration was timed
 };
 
 // Combines a record with its errors and with the median of its timings by `clock`.

@@ -17,8 +17,8 @@ namespace triptych::accuracy {
 //   - error: the error of an image in which nothing was drawn (0 in every channel), which takes no
 //     time. It depends on the scene.
 inline constexpr double reference_time_ns = 1e9;
-// Smaller errors cannot be distinguished from the rounding of a float image, and an error of 0
-// would make the area infinite.
+// The smallest error that is taken into account. Smaller errors cannot be distinguished from the
+// rounding of a float image, and an error of 0 would make the area infinite.
 inline constexpr double least_told_error = 0x1.0p-24;
 
 // Returns the area between the front and the reference point, in ln time and ln error:

@@ -23,21 +23,21 @@ struct ImageComparison {
 
   // A pixel that shows a wrong particle, or the correct particle at a wrong depth.
   struct Surface {
-    int x = -1;  // -1 if there is none
+    int x = -1;  // -1 if there is no such pixel
     int y = -1;
     std::uint32_t id = core::Image::no_particle;
     std::uint32_t expected_id = core::Image::no_particle;
     double depth = 0;
     double expected_depth = 0;
-    double bound = 0;  // bound of the depth
+    double bound = 0;  // bound on the depth error
   };
 
   bool size_mismatch = false;  // if true, the members below are not set
   std::size_t pixels = 0;
   std::size_t non_finite = 0;
   std::size_t over_bound = 0;
-  Place worst;          // place of the largest ratio
-  Place largest;        // place of the largest error
+  Place worst;          // pixel with the largest ratio
+  Place largest;        // pixel with the largest error
   double rmse = 0;      // over all channels of the compared pixels
   double error_99 = 0;  // 99th percentile of the pixels' errors
   // Results for images of particles; 0 for other images.

@@ -11,8 +11,8 @@ namespace {
 // constant.
 constexpr double recorded = 0x1.0p-23;
 
-// Samples are not compared once the transmittance is below this, because the reference ends its
-// rays there.
+// Samples are not compared once the transmittance is below this threshold, because the reference
+// ends its rays there.
 constexpr double invisible = 0x1.0p-60;
 
 bool is_within(double number, const Allowed& allowed) {

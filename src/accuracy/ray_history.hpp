@@ -25,11 +25,11 @@ struct ExpectedSample {
   std::int64_t index = 0;
   std::array<Allowed, 3> place{};   // in voxels
   std::optional<Allowed> front;     // normalised value at the beginning of a step
-  Allowed value;                    // at the sample; for a step, at its end
+  Allowed value;                    // normalised value at the sample, or at the end of a step
   std::array<Allowed, 3> colour{};  // not premultiplied, after shading
-  std::optional<Allowed> alpha;     // opacity per voxel length; not for a step
+  std::optional<Allowed> alpha;     // opacity per voxel length; not set for a step
   Allowed length;                   // in voxel lengths
-  Allowed opacity;                  // opacity of that length
+  Allowed opacity;                  // opacity over `length`
 };
 
 struct ExpectedRay {
@@ -63,7 +63,7 @@ enum class Operation : std::uint8_t {
   alpha,       // the opacity that the transfer function returns
   colour,      // the colour that the transfer function returns, after shading
   length,      // the length of the step that the sample covers
-  opacity,     // the opacity of that length
+  opacity,     // the opacity over that length
   compositing  // the light after the sample, from the recorded light before it
 };
 [[nodiscard]] std::string_view name_of(Operation operation);

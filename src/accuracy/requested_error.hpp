@@ -14,7 +14,7 @@ namespace triptych::accuracy {
 enum class Metric : std::uint8_t {
   rms,      // root mean square over all pixels and channels
   covered,  // root mean square over the non-background pixels of the limit
-  p99_9,    // 99.9th percentile of the largest channel errors of the pixels
+  p99_9,    // 99.9th percentile, over the pixels, of the largest channel error
   max       // largest difference in any pixel and channel
 };
 inline constexpr std::array all_metrics{Metric::rms, Metric::covered, Metric::p99_9, Metric::max};

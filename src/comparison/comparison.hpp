@@ -76,7 +76,7 @@ struct ComparisonResult {
   double seconds = 0;
 
   [[nodiscard]] core::ExitCode exit_code() const;
-  // Groups all differences except those in times.
+  // Groups all differences except timing differences.
   [[nodiscard]] std::vector<DifferenceGroup> groups() const;
 };
 

@@ -18,12 +18,12 @@ using Kind = DifferenceKind;
 using Cause = DifferenceCause;
 using measure::Side;
 
-// The relative increase in the instructions of a frame that is allowed if the sides use different
-// drivers, or the same driver with different settings. It equals the increase in time that is
-// tolerated (SequentialDesign::standard()).
+// The tolerated relative increase in the number of instructions per frame if the sides use
+// different drivers, or the same driver with different settings. It equals the tolerated increase
+// in time (SequentialDesign::standard()).
 constexpr double frame_across_setups = 0.01;
-// Relative changes in the preparation cost up to this limit are not reported, because that cost
-// varies from run to run.
+// Changes in the preparation cost are reported only if they exceed this relative limit, because
+// that cost varies from run to run.
 constexpr double of_preparing = 0.05;
 
 template <typename Map>

@@ -1,5 +1,5 @@
 #pragma once
-// Finds all differences, except those in times, between two records of the same configuration.
+// Finds all differences between two records of the same configuration, except timing differences.
 
 #include <string>
 #include <vector>

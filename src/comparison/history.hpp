@@ -1,7 +1,7 @@
 #pragma once
 // The history of the devices in a series of stores, for example one store per day or per commit. It
-// consists of the changes from store to store (except changes in times), and the development of
-// cost and time since the first store.
+// consists of the changes from store to store (except timing changes), and of the trends of cost
+// and time since the first store.
 
 #include <map>
 #include <optional>
@@ -66,14 +66,14 @@ class HistoryBuilder {
 
  private:
   using Points = std::map<std::string, HistoryPoint>;  // by device
-  // The most recent cost or time of a configuration (`amount`), and the cost or time of the point
-  // at which it was measured, relative to the first point (`value`).
+  // The most recent cost or time of a configuration (`amount`), and the value of its HistoryPoint
+  // (`value`), which is relative to the first point.
   struct Link {
     double amount;
     double value;
   };
   using Chain = std::map<std::string, Link>;
-  struct Known {  // known values of a device
+  struct Known {  // what is known about a device so far
     Chain cost;
     Chain time;
     const record::Store* last = nullptr;                 // the latest store with the device

@@ -101,7 +101,7 @@ struct ConfirmationDesign {
 };
 
 struct Confirmation {
-  PairVerdict verdict = PairVerdict::undecided;  // slower or faster only if suspected
+  PairVerdict verdict = PairVerdict::undecided;  // slower or faster only if that was suspected
   Shift shift;   // mean of the process runs, and Student's t interval with the tail probability `q`
                  // at each end
   double p = 1;  // p-value of the hypothesis that the shift is not larger than tolerated
@@ -118,8 +118,8 @@ struct Confirmation {
                                                 const SequentialDesign& design);
 
 // A function that measures the fresh process run `number` for each of the suspects `open`. The next
-// look takes place after run `until`. Returns false if no more runs are possible. A suspect is no
-// longer measured once a look has decided about it.
+// look takes place after process run `until`. Returns false if no more runs are possible. Suspects
+// about which a look has decided are not measured again.
 using RunAgain =
     std::function<bool(std::span<const std::size_t> open, std::size_t number, std::size_t until)>;
 [[nodiscard]] std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,

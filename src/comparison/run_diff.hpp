@@ -1,6 +1,6 @@
 #pragma once
-// The differences, except those in times, between two runs of one plan, configuration by
-// configuration.
+// The differences between two runs of one plan, configuration by configuration, except timing
+// differences.
 
 #include <array>
 #include <optional>
@@ -28,7 +28,7 @@ struct ConfigurationDiff {
   // did not measure the configuration, `ended` is the outcome of that side.
   TimeReason no_time;
   std::optional<record::Outcome> ended;
-  std::optional<judge::WorkChange> work;       // b relative to a
+  std::optional<judge::WorkChange> work;       // change from a to b
   std::array<bool, 2> device_clock_trusted{};  // for a and for b
 };
 

@@ -32,7 +32,7 @@ double wall_time_of(const record::Record& record) {
   return time_by(record, "wall");
 }
 
-// Returns, for each technique, the configurations that at least two devices measured. Each
+// Returns, for each technique, the configurations that were measured on at least two devices. Each
 // configuration is a map from the devices to their records.
 std::map<std::string, std::vector<ByDevice>> measured_by(std::span<const record::Record> records,
                                                          Value value) {
@@ -57,8 +57,8 @@ double geometric_mean(const std::vector<ByDevice>& configurations, const std::st
   return std::exp(logs / static_cast<double>(configurations.size()));
 }
 
-// Returns the row of a technique. `shared` contains the configurations that all `devices` measured,
-// and must not be empty.
+// Returns the row of a technique. `shared` contains the configurations that were measured on all
+// `devices`, and must not be empty.
 SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>& shared,
                        const std::set<std::string>& devices, Value value) {
   SideBySide::Row row{technique, shared.size(), {}, {}};
@@ -82,7 +82,7 @@ SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>
   return row;
 }
 
-// Returns whether all times were measured on device clocks. Times on different clocks are never
+// Returns whether all times were measured by device clocks. Times from different clocks are never
 // compared.
 bool all_by_device_clock(std::span<const record::Record> records) {
   return std::ranges::all_of(records, [](const record::Record& each) {

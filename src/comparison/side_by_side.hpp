@@ -12,8 +12,8 @@
 
 namespace triptych::comparison {
 
-// All values are geometric means over the configurations that every device of a row measured. A
-// geometric mean prevents a large scene from outweighing the others.
+// All values are geometric means over the configurations that were measured on every device in the
+// row. A geometric mean prevents a large scene from outweighing the others.
 struct SideBySide {
   struct Cell {
     double value = 0;  // instructions or nanoseconds per frame
@@ -34,10 +34,10 @@ struct SideBySide {
   std::vector<Row> rows;
 };
 
-// Returns the table for one run. It contains instructions if at least two devices counted them, and
-// times otherwise. Times are those of the device clocks if the device clocks of all devices are
-// trusted, and wall-clock times otherwise. Returns nullopt if no configuration was measured by two
-// devices.
+// Returns the table for one run. The table contains instructions if they were counted on at least
+// two devices, and times otherwise. The times are device times if the clocks of all devices are
+// trusted, and wall-clock times otherwise. Returns nullopt if no configuration was measured on at
+// least two devices.
 [[nodiscard]] std::optional<SideBySide> side_by_side(std::span<const record::Record> records);
 
 }  // namespace triptych::comparison

@@ -1,6 +1,6 @@
 #pragma once
-// The differences, except those in times, between two stores, for example from before and after a
-// driver upgrade. Neither driver needs to be installed.
+// The differences between two stores, except timing differences. The stores may come, for example,
+// from before and after a driver upgrade. Neither driver needs to be installed.
 
 #include <compare>
 #include <string>

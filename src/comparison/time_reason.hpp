@@ -41,7 +41,7 @@ struct TimeReason {
   [[nodiscard]] bool empty() const noexcept { return cause == TimeCause::none; }
 };
 
-// Why the wall clock was used instead of the device clocks.
+// The reason why the wall clock was used instead of the device clocks.
 enum class WallClockCause : std::uint8_t {
   none,              // the device clocks were used
   a_not_calibrated,  // the device clock of side a failed its calibration

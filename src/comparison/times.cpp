@@ -35,7 +35,7 @@ class Timer {
                       .seed = options.seed},
                      options.a, options.b) {
     for (Compared& each : compared) {
-      if (!each.reason.empty()) continue;  // because its times would be meaningless
+      if (!each.reason.empty()) continue;  // times would be meaningless
       entries_.push_back({each,
                           {std::vector<std::string>{},
                            measure::faults_for(options_.faults, each.key, options_.b.device)},
@@ -322,8 +322,8 @@ class Timer {
 
   const ComparisonOptions& options_;
   const Tell& tell_;
-  const measure::Stopwatch& since_begin_;  // started with the whole comparison
-  measure::Stopwatch since_start_;         // started with the first timing block
+  const measure::Stopwatch& since_begin_;  // measures from the start of the whole comparison
+  measure::Stopwatch since_start_;         // measures from the start of the first timing block
   measure::Interleaved interleaved_;
   std::vector<Entry> entries_;
   const Entry* held_ = nullptr;  // the configuration that both workers have loaded

@@ -6,8 +6,8 @@ namespace triptych::core {
 
 class CodePlace {
  public:
-  // Used as a default argument, returns the source location at which the enclosing function is
-  // called.
+  // When used as a default argument of a function, returns the source location of the call to that
+  // function.
   [[nodiscard]] static constexpr CodePlace current(const char* file = __builtin_FILE(),
                                                    int line = __builtin_LINE()) noexcept {
     return CodePlace(file, line);

@@ -37,7 +37,7 @@ class Descriptor {
   int fd_;
 };
 
-// Removes the file when it is destroyed, unless finished() was called.
+// A file that the destructor removes, unless finished() was called.
 class Unfinished {
  public:
   explicit Unfinished(std::filesystem::path file) : file_(std::move(file)) {}
@@ -89,8 +89,8 @@ Bytes read_at_most(const std::filesystem::path& file, std::size_t most) {
   struct stat facts {};
   const Descriptor in = open_to_read(file, facts);
   refuse_more(static_cast<std::size_t>(facts.st_size));
-  // The buffer is one byte larger than the reported file size, so that read() can reach the end of
-  // the file without the buffer having to grow.
+  // The buffer is one byte larger than the reported file size, so that read() can detect the end of
+  // the file without having to enlarge the buffer.
   Bytes bytes(static_cast<std::size_t>(facts.st_size) + 1, typename Bytes::value_type{});
   std::size_t filled = 0;
   for (;;) {
@@ -133,7 +133,8 @@ void write_file(std::span<const std::byte> bytes, const std::filesystem::path& f
     write_in_place(bytes, target);
     return;
   }
-  // Each writer uses a unique name, so that two writers cannot mix their bytes.
+  // Each writer uses a temporary file with a unique name, so that two writers never write to the
+  // same file.
   std::filesystem::path aside;
   int fd = -1;
   for (int attempt = 0; fd < 0 && (attempt == 0 || errno == EEXIST); ++attempt) {

@@ -8,9 +8,9 @@
 namespace triptych::core {
 
 // Must be called from a catch block. Rethrows an error of this project unchanged. Converts system
-// errors and a lack of memory to IoError, and all other exceptions to InputError. The message
-// begins with `about`, the name of a file or of a place in a file. If `about` is empty, an
-// exception that would become an InputError is reported as an internal error of Triptych instead.
+// errors and std::bad_alloc to IoError, and all other exceptions to InputError. The message begins
+// with `about`, the name of a file or of a place in a file. If `about` is empty, an exception that
+// would become an InputError is reported as an internal error of Triptych instead.
 [[noreturn]] void rethrow_as_ours(const std::string& about);
 
 // Runs `action` and converts its exceptions with rethrow_as_ours().

@@ -24,9 +24,9 @@ namespace triptych::core {
 //               number as an IEEE double. Therefore 0 and −0 have different hashes, whereas the
 //               same value has the same hash as an int and as a long, or as a float and as a
 //               double.
-//   text        its length as a number, then its bytes
-//   an array    the content hash of the bytes of all its elements, added as text
-// For all objects of one kind, the caller must add the same sequence of parts, and must add the
+//   text        its length as a number, then its bytes an array    the content hash of the bytes of
+//   all its elements, added as text
+// The caller must add the parts of all objects of one kind in the same sequence, and must add the
 // length of a list before its elements.
 class HashBuilder {
  public:

@@ -177,7 +177,7 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
   while (place < text.size() && !take_text().empty()) {
     const bool channels = take_text() == "chlist";
     std::int32_t size = 0;
-    if (text.size() - place < sizeof(size)) return;  // OpenEXR reports the truncated file
+    if (text.size() - place < sizeof(size)) return;  // truncated, which OpenEXR itself reports
     std::memcpy(&size, text.data() + place, sizeof(size));
     place += sizeof(size);
     if (size < 0 || static_cast<std::size_t>(size) > text.size() - place) {

@@ -29,7 +29,7 @@ std::string json_text(const Json& json, int indent) {
   for (std::string_view rest = text; !rest.empty();) {
     const std::string_view character = rest.substr(0, std::max<std::size_t>(utf8_length(rest), 1));
     rest.remove_prefix(character.size());
-    // Line ends stay as they are. They occur only between values, because dump() has already
+    // Line breaks are not escaped. They occur only between values, because dump() has already
     // escaped those within strings.
     const char first = character.front();
     if (first >= 0x20 && first < 0x7F) {

@@ -11,11 +11,11 @@
 namespace triptych::core {
 
 // Quotes one word of a shell command, so that every POSIX shell (dash, bash, zsh, BusyBox, ksh)
-// reads the original word, in a script and at a prompt. A word without special characters is
-// unchanged. A word with special characters is put in single quotes. A word with hidden characters
-// (core/text.hpp) or invalid UTF-8 becomes "$(printf 'FORMAT')" with octal escapes, so that the
-// command stays on one line and the hidden characters are visible. Line ends at the end of such a
-// word are appended in single quotes, because $(…) would drop them.
+// reads the original word, both in a script and at an interactive prompt. A word without special
+// characters is unchanged. A word with special characters is put in single quotes. A word with
+// hidden characters (core/text.hpp) or invalid UTF-8 becomes "$(printf 'FORMAT')" with octal
+// escapes, so that the command stays on one line and the hidden characters are visible. Line ends
+// at the end of such a word are appended in single quotes, because $(…) would drop them.
 [[nodiscard]] std::string shell_quoted(std::string_view word);
 // Returns whether a shell accepts the assignment NAME=VALUE for this name. A variable with any
 // other name can be set only by `env`.

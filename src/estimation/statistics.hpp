@@ -22,7 +22,7 @@ inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 [[nodiscard]] double student_t_upper_quantile(double share, double degrees);
 
 // Returns which hypotheses are rejected by the procedure of Benjamini & Hochberg (1995), which
-// limits the expected share of false rejections among all rejections to q.
+// limits the expected fraction of false rejections among all rejections to q.
 [[nodiscard]] std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q);
 
 // Returns, for each p-value, the smallest q at which this procedure rejects its hypothesis.
@@ -33,7 +33,7 @@ inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 // the groups' variances by the moments of ln s² (Smyth 2004, "Linear models and empirical Bayes
 // methods", section 6.2).
 struct VariancePrior {
-  double degrees = 0;   // d₀; infinite if the variances differ no more than by chance
+  double degrees = 0;   // d₀; infinite if the variances differ no more than expected by chance
   double variance = 0;  // s₀²
 };
 // Fits the prior to `variances` > 0 with their `degrees` > 0. With a single group, d₀ is 0, because

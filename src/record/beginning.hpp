@@ -33,7 +33,7 @@ struct Unusable {
 // devices that were found. A run that was resumed or merged has several parts.
 struct Beginning {
   std::string host = {};
-  std::string program = {};               // the version of Triptych that measured; empty if unknown
+  std::string program = {};               // version of Triptych; empty if unknown
   std::vector<std::string> asked = {};    // requested device ids, as globs; empty: all devices
   std::vector<std::string> found = {};    // ids of all devices that were found
   std::vector<std::string> devices = {};  // ids of the devices to be measured

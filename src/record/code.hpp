@@ -1,5 +1,5 @@
 #pragma once
-// The report of a compiler about the device code that it generated, which is available without
+// A compiler's report on the device code that it generated. The report is available without
 // executing the code.
 
 #include <map>

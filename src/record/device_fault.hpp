@@ -13,7 +13,7 @@ enum class DeviceFaultKind : std::uint8_t {
   clock_reads_zero,      // the device's timer reads 0 for work that takes time
   clock_rate_wrong,      // a timer tick does not last as long as the device reports
   clock_not_written,     // the driver never wrote a time stamp
-  statistics_all_zero,   // pipeline statistics of a frame that drew something are all 0
+  statistics_all_zero,   // all pipeline statistics are 0, although the frame drew something
   statistics_crash,      // the driver crashes when it reads pipeline statistics
   statistics_not_ready,  // pipeline statistics never become available
   teardown_crash,        // the worker crashes while it closes the device

@@ -19,8 +19,8 @@ using Changed = std::map<std::string, std::string>;
 // The image must equal the image of another configuration.
 struct SamePicture {
   Changed changed;
-  bool mirrored_x = false;  // whether left and right are exchanged in the other image
-  bool mirrored_y = false;  // whether top and bottom are exchanged in the other image
+  bool mirrored_x = false;  // whether the other image is mirrored horizontally
+  bool mirrored_y = false;  // whether the other image is mirrored vertically
   // The position in the other image that corresponds to pixel (0, 0) of this image. The other image
   // may be larger.
   std::array<int, 2> at{0, 0};

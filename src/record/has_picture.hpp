@@ -5,9 +5,9 @@
 
 namespace triptych::record {
 
-// Returns whether the record has an image. There is no image for the technique speed_of_light,
-// which only computes sums, and for a compile-only device, which draws nothing. A test compares the
-// technique's name with the catalogue, which lists the techniques that draw no image.
+// Returns whether the record has an image. There is no image if the technique is speed_of_light,
+// which only computes sums, or if the device is a compile-only device, which draws nothing. A test
+// checks that this function and the catalogue agree on which techniques draw an image.
 [[nodiscard]] inline bool has_picture(const Record& record) {
   return record.technique != "speed_of_light" && record.code.empty();
 }

@@ -1,6 +1,7 @@
 #pragma once
-// The measurements. There is one Record for each configuration, device and run. The judge and the
-// reports need only records, so they also work on a machine that has none of the devices.
+// Measurements, stored as one Record for each combination of configuration, device and run. The
+// judge and the reports need only records, so they also work on a machine that has none of the
+// devices.
 
 #include <cstddef>
 #include <cstdint>
@@ -80,7 +81,7 @@ struct Record {
   std::string plan;  // "volume/quick", or the name of the plan's file without extension
   std::string
       configuration;  // canonical "factor=value,…" of all factors that differ from their defaults
-  std::string scene;  // canonical text of the factors that determine the image
+  std::string scene;  // canonical list of the factors that determine the image
   std::string technique;
   std::string device;                          // Device::id
   std::map<std::string, std::string> factors;  // all factors, including defaults

@@ -79,7 +79,7 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
 
 // Switches to WAL mode. If several processes do this at the same time, SQLite rejects all but one
 // of them immediately, regardless of the busy limit, because each process holds a read lock that
-// another process is waiting for. Therefore this function tries again until the busy limit.
+// another process is waiting for. Therefore this function retries until `busy_limit` has passed.
 void write_ahead(SQLite::Database& database, std::chrono::milliseconds busy_limit) {
   const auto end = std::chrono::steady_clock::now() + busy_limit;
   for (;;) {

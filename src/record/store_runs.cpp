@@ -16,7 +16,7 @@ namespace {
 
 using core::Json;
 
-// Returns a map as JSON text. Invalid UTF-8 is replaced, because it must not stop a run.
+// Returns a map as JSON text. Replaces invalid UTF-8, because it must not abort a run.
 std::string text_of(const std::map<std::string, std::string>& map, const char* field,
                     const Json& owner) {
   return map.empty() ? "{}" : core::json_text(owner.at(field));

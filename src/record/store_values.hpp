@@ -38,8 +38,8 @@ class Binder {
     }
     return *this;
   }
-  // The bits of unsigned 64-bit numbers are stored unchanged, so SQL queries return numbers from
-  // 2⁶³ as negative numbers.
+  // The bits of unsigned 64-bit numbers are stored unchanged, so SQL queries return numbers of 2⁶³
+  // or more as negative numbers.
   template <typename T>
   requires std::integral<T> Binder& operator<<(T number) {
     statement_.bind(++index_, static_cast<std::int64_t>(number));

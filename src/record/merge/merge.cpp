@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 // three file descriptors and a share of the memory. If there are more stores, they are merged in
 // groups of this size, and then the results of the groups are merged.
 constexpr std::size_t most_at_once = 64;
-constexpr int source_cache_kib = 96 << 10;  // shared by all sources
+constexpr int source_cache_kib = 96 << 10;  // total for all sources
 constexpr int out_cache_kib = 96 << 10;
 constexpr std::chrono::seconds busy_limit{10};
 
@@ -123,7 +123,7 @@ class Writing {
   }
 
  private:
-  // Copies the entries of configurations whose measurement began but that have no record.
+  // Copies the list of configurations that were begun but that have no record.
   void copy_begun(const std::vector<std::string>& parts, const std::string& run) {
     MergedRows rows(
         sources_,
@@ -140,7 +140,8 @@ class Writing {
     }
   }
 
-  // Copies a table with large rows. The content of a row is read only if the row is copied.
+  // Copies one row for each key of a table whose rows are large. Only the keys and seals are read
+  // from all stores; the content of a row is read only if the row is copied.
   void copy_named(const std::string& table, const std::vector<std::string>& key,
                   const std::vector<std::string>& content) {
     const int keys = static_cast<int>(key.size());
@@ -209,7 +210,8 @@ struct Stepwise {
   const fs::path& out;
   Aside& aside;
   DataSeen data;
-  // How many records were left out in all steps, and how many were copied in the last step.
+  // The number of records that were left out in all steps, and the number of records that were
+  // copied in the last step.
   std::vector<RecordCounts> counts;
 
   fs::path merge(std::vector<Input> inputs) {

@@ -43,8 +43,8 @@ struct MergeResult {
 // same configuration and device, only one of them is copied. Records without an injected fault are
 // preferred, then measured records, then skipped records, and then the record with the smallest
 // seal. If a device's clocks were calibrated several times, the calibration with the smallest seal
-// is kept. The new store is byte-identical for every order of the stores, and does not change if a
-// store is merged twice. Memory use does not grow with the number of records or stores.
+// is kept. The new store is byte-identical regardless of the order of `stores`, even if a store is
+// listed twice. Memory use does not grow with the number of records or stores.
 //
 // `out` appears only when everything has been written. An existing file is not overwritten. Throws
 // InputError if two stores have different versions of a plan, different checks for the same plan,

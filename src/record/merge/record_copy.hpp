@@ -40,13 +40,14 @@ struct RecordCounts {
   // copied:
   std::uint64_t repeated = 0;       // identical to the other record
   std::uint64_t injected = 0;       // has an injected fault, but the other record has none
-  std::uint64_t not_chosen = 0;     // different, but with an outcome that is not worse
+  std::uint64_t not_chosen = 0;     // different, but with an equally good outcome
   std::uint64_t measured_anew = 0;  // failed or was skipped, but the other record was measured
 };
 
 class RecordCopy {
  public:
-  using Tell = std::function<void(std::uint64_t records)>;  // the number of records so far
+  // Called with the number of records copied so far.
+  using Tell = std::function<void(std::uint64_t records)>;
 
   // All arguments must outlive this object. `out` must not contain records yet.
   RecordCopy(const std::vector<Source>& sources, const SQLite::Database& out, DataSeen& data,
@@ -87,7 +88,7 @@ class RecordCopy {
   const Tell& tell_;
   std::vector<std::string> others_;  // columns of a record that are copied without being examined
   std::vector<Part> parts_;
-  std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; empty: no rows
+  std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; nullopt: no rows
   RowWriter record_writer_;
   std::vector<RowWriter> part_writers_;
   std::int64_t seq_ = 0;  // number of the most recently added record
