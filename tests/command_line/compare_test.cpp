@@ -123,7 +123,7 @@ TEST_F(Compare, TheGateCanCompareWithABase) {
 
 TEST_F(Compare, AnUntrustedClockIsNotUsed) {
   const Result result = compare(b_as(1, R"(, "noise": 0.01, "device_over_wall": 0.1)"));
-  expect_verdict(result, 0, "the device clock of b did not pass its calibration");
+  expect_verdict(result, 0, "the device clock of b failed its calibration");
 }
 
 TEST_F(Compare, JsonContainsTheSameResult) {

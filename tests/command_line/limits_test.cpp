@@ -29,9 +29,10 @@ TEST(Memory, DataBeyondTheLimitFailOnlyTheirConfiguration) {
   const std::string data = "--set data=generate:gaussian_blob:16,generate:gaussian_blob:500 ";
   const Result result = program.run(small + data + "--memory 300M");
   EXPECT_EQ(result.code, 0) << result.output;
-  EXPECT_THAT(result.output,
-              HasSubstr("ran out of host memory while using the data generate:gaussian_blob:500; "
-                        "the worker may allocate at most 300 MiB"));
+  EXPECT_THAT(
+      result.output,
+      HasSubstr("ran out of host memory while using the data set generate:gaussian_blob:500; "
+                "the worker may allocate at most 300 MiB"));
   EXPECT_THAT(result.output, HasSubstr("1 measured, 0 skipped, 1 failed"));
 }
 

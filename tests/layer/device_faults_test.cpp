@@ -24,13 +24,13 @@ struct DeviceFaultCase {
 const std::vector<DeviceFaultCase>& device_faults() {
   static const std::vector<DeviceFaultCase> all{
       {"zero_clock", "the device's clock always reads 0"},
-      {"untouched_clock", "never writes the requested time stamps"},
+      {"untouched_clock", "never writes the requested timestamps"},
       {"zero_statistics", "all pipeline statistics are 0"},
       {"crashing_statistics", "the driver crashes when pipeline statistics are read"},
       {"unready_statistics", "pipeline statistics do not become available"},
-      {"crash_with_device", "the driver crashes while the device is closed"},
-      {"hang_with_device", "the driver hangs while the device is closed"},
-      {"crash_at_exit", "the driver crashes while the device is closed"},
+      {"crash_with_device", "the driver crashes when the device is closed"},
+      {"hang_with_device", "the driver hangs when the device is closed"},
+      {"crash_at_exit", "the driver crashes when the device is closed"},
   };
   return all;
 }
@@ -76,7 +76,7 @@ TEST_F(DeviceFaults, MemoryThatGrowsWithEveryConfigurationIsAFinding) {
     const test::Result result =
         layered.run("", "gate volume/quick --check image --baselines none --store " + store);
     const bool found =
-        unwrapped(result.output).find("the memory of the process grows") != std::string::npos;
+        unwrapped(result.output).find("the memory usage of the process grows") != std::string::npos;
     EXPECT_EQ(found, change == std::string_view("leak")) << result.output;
   }
 }

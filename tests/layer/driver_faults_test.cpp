@@ -121,7 +121,7 @@ TEST_F(DriverFaults, InQueriesAreReportedByDevices) {
   };
   EXPECT_THAT(of_vulkan("stuck_clock"), HasSubstr("clock for compute: not trusted"));
   EXPECT_THAT(of_vulkan("double_statistics"),
-              HasSubstr("statistic vertex_invocations: always 2 times the true number"));
+              HasSubstr("statistic vertex_invocations: always 2 times the correct count"));
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ std::string found(const Cause& cause) {
   }
   if (group.changed_with_it > 0) {
     text += group.configurations == 1
-                ? "; its counters changed, too"
+                ? "; the counters of this configuration changed, too"
                 : fmt::format("; the counters of {} configurations changed, too",
                               group.changed_with_it);
   }
@@ -68,7 +68,8 @@ std::string blame(const FindingGroup& group) {
                          with_verb(blame.devices, "is", "are"));
     case Blame::Of::driver_since_accepted:
       return fmt::format(
-          "the driver is at fault, because {} correct with the same API when accepted",
+          "the driver is at fault, because {} correct with the same API when the baselines were "
+          "accepted",
           with_verb(blame.devices, "was", "were"));
     case Blame::Of::not_the_driver:
       return fmt::format("the driver is not at fault, because {} wrong, too",

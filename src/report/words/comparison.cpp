@@ -94,10 +94,10 @@ std::string sentence_of(const Difference& difference) {
     case DifferenceCause::other_bits:
       return other_bits(difference);
     case DifferenceCause::other_bits_of_one_code:
-      return "the same device code drew a different image on the same device: " +
+      return "the images differ, although the device and the device code are the same: " +
              other_bits(difference);
     case DifferenceCause::two_counters:
-      return fmt::format("not comparable: a was counted by {}, and b by {}",
+      return fmt::format("not comparable: the counts in a come from {}, those in b from {}",
                          difference.facts.at("a"), difference.facts.at("b"));
     case DifferenceCause::values_changed:
       return all_changes(difference);
@@ -216,9 +216,9 @@ std::string text_of(const comparison::DifferenceGroup& group) {
   std::string text = text_of(group.difference);
   if (!group.where.empty()) text = fmt::format("{}: {}", group.where, text);
   if (group.count <= 1) return text;
-  return group.ratios ? fmt::format("{} in {} configurations, the most in {}",
+  return group.ratios ? fmt::format("{} in {} configurations; largest change in {}",
                                     range_of(*group.ratios), group.count, text)
-                      : fmt::format("in {} configurations, first in {}", group.count, text);
+                      : fmt::format("in {} configurations, for example in {}", group.count, text);
 }
 
 std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups) {
@@ -252,17 +252,20 @@ std::string text_of(const TimeReason& reason) {
     case TimeCause::wrong_image:
       return fmt::format("the image of {} is wrong, so its time is meaningless", side);
     case TimeCause::no_fresh_process_runs:
-      return fmt::format("{} at first, but this could not be confirmed in fresh process runs",
-                         suspected);
+      return fmt::format(
+          "{} in the first process run, but fresh process runs to confirm this could not be "
+          "measured",
+          suspected);
     case TimeCause::not_confirmed:
       return fmt::format(
-          "{} by {} in one process run, but {:.0f} fresh process runs did not confirm it",
+          "{} ({}) in the first process run, but {:.0f} fresh process runs did not confirm this",
           suspected, percent(number("ratio")), number("process_runs"));
     case TimeCause::undecided:
-      return fmt::format("undecided after {:.0f} blocks{}", number("blocks"), interval());
-    case TimeCause::budget_ended:
-      return fmt::format("the time budget was used up after {:.0f} blocks{}", number("blocks"),
+      return fmt::format("undecided after {:.0f} measurement blocks{}", number("blocks"),
                          interval());
+    case TimeCause::budget_ended:
+      return fmt::format("the time budget was used up after {:.0f} measurement blocks{}",
+                         number("blocks"), interval());
   }
   return {};
 }
@@ -272,11 +275,11 @@ std::string text_of(WallClockCause cause) {
     case WallClockCause::none:
       return {};
     case WallClockCause::a_not_calibrated:
-      return "the device clock of a did not pass its calibration";
+      return "the device clock of a failed its calibration";
     case WallClockCause::b_not_calibrated:
-      return "the device clock of b did not pass its calibration";
+      return "the device clock of b failed its calibration";
     case WallClockCause::neither_calibrated:
-      return "neither device clock passed its calibration";
+      return "the device clocks of a and b failed their calibrations";
     case WallClockCause::implausible:
       return "the device clock reported implausible times";
   }
@@ -294,9 +297,9 @@ std::string stage_of(const comparison::ComparisonProgress& progress) {
     case comparison::ComparisonStage::deterministic:
       return "deterministic measurements";
     case comparison::ComparisonStage::first_look:
-      return "first estimate of the time";
+      return "first estimate of the frame times";
     case comparison::ComparisonStage::more_blocks:
-      return "additional blocks";
+      return "additional measurement blocks";
     case comparison::ComparisonStage::fresh_process_runs:
       return fmt::format("fresh process run {} of {}", progress.process_run, progress.process_runs);
   }
@@ -348,8 +351,8 @@ std::string sentence(const comparison::SideBySide& table) {
   const auto its = std::ranges::count_if(table.rows, [&](const comparison::SideBySide::Row& row) {
     return row.cells.contains(most->first);
   });
-  std::string text =
-      fmt::format("{} is best in {} of its {} techniques", most->first, most->second, its);
+  std::string text = fmt::format("{} is best in {} of the {} techniques measured on it",
+                                 most->first, most->second, its);
   for (const std::string& device : table.devices) {
     std::vector<double> ratios;
     for (const comparison::SideBySide::Row& row : table.rows) {
@@ -358,9 +361,9 @@ std::string sentence(const comparison::SideBySide& table) {
       ratios.push_back(row.cells.at(device).value / row.cells.at(most->first).value);
     }
     if (ratios.empty()) continue;
-    text +=
-        fmt::format("; {} takes {:.2f} to {:.2f} times as much in the techniques measured on both",
-                    device, std::ranges::min(ratios), std::ranges::max(ratios));
+    text += fmt::format(
+        "; {} needs {:.2f} to {:.2f} times as much per frame in the techniques measured on both",
+        device, std::ranges::min(ratios), std::ranges::max(ratios));
   }
   return text;
 }

@@ -17,7 +17,7 @@ namespace triptych::report::words {
 
 // Describes one difference: "1000 → 1001 (+0.1 %), although the driver is the same".
 [[nodiscard]] std::string text_of(const comparison::Difference& difference);
-// Describes a group of differences: "+1.2 % to +40 % in 27 configurations, the most in X: …".
+// Describes a group of differences: "+1.2 % to +40 % in 27 configurations; largest change in X: …".
 [[nodiscard]] std::string text_of(const comparison::DifferenceGroup& group);
 // Returns one line for each group: "regression    cost: +1.2 % to +40 % in 27 configurations, …".
 [[nodiscard]] std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups);
@@ -39,8 +39,8 @@ namespace triptych::report::words {
 // changed; 64 s".
 [[nodiscard]] std::string headline(const comparison::ComparisonResult& result);
 
-// Summarizes a table of two or more devices: "gl:x is best in 5 of its 8 techniques; vulkan:y takes
-// 0.98 to 1.3 times as much in the techniques measured on both".
+// Summarizes a table of two or more devices: "gl:x is best in 5 of the 8 techniques measured on it;
+// vulkan:y needs 0.98 to 1.3 times as much per frame in the techniques measured on both".
 [[nodiscard]] std::string sentence(const comparison::SideBySide& table);
 
 // States that a frame cannot be reduced, because it fails in a different way when it is drawn

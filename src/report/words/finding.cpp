@@ -32,7 +32,7 @@ std::string excuse(const Finding& finding) {
                                          : fmt::format("known {}: ", judge::name_of(excuse.known));
     case Excuse::Of::unexpected:
       return finding.verdict == Verdict::improved
-                 ? fmt::format("passes, although the file of expectations lists it as '{}' ({}): ",
+                 ? fmt::format("passes, although the expectations file lists it as '{}' ({}): ",
                                judge::name_of(excuse.known), excuse.reason)
                  : "unexpectedly skipped: ";
     case Excuse::Of::expired:
@@ -49,7 +49,7 @@ std::string drawn_again(const Finding& finding) {
     case Again::flake:
       return "flake (correct when drawn again): ";
     case Again::slow:
-      return "correct when drawn again, so the device is slow or hangs sometimes: ";
+      return "correct when drawn again, so the device is slow or sometimes hangs: ";
     case Again::other:
       break;
   }
@@ -103,7 +103,7 @@ std::string found(const Finding& finding) {
   if (!finding.subject.empty()) text += finding.subject + ": ";
   text += text_of(static_cast<const judge::Observation&>(finding));
   if (finding.measured_before) {
-    text += "; it was measured on this device when the baselines were accepted";
+    text += "; this configuration was measured on this device when the baselines were accepted";
   }
   if (finding.excuse.of == Excuse::Of::expired) {
     text += fmt::format("; its waiver expired on {} ({})", finding.excuse.expiry,
@@ -144,11 +144,11 @@ std::string advice(const Finding& finding) {
     case Advice::more_time:
       return "increase the time limit with --limit";
     case Advice::times:
-      return "times affect the verdict only with --times";
+      return "to let times affect the verdict, use --times";
     case Advice::repair_driver:
       return "repair the driver, or declare the device missing on this machine with " + command;
     case Advice::remove_entry:
-      return "remove the entry from the file of expectations";
+      return "remove the entry from the expectations file";
     case Advice::remove_waiver:
       return "remove the waiver";
   }

@@ -25,7 +25,7 @@ namespace triptych::report::words {
 // Returns found() and advice() in one line.
 [[nodiscard]] std::string text_of(const judge::Finding& finding);
 
-// Describes a changed value: "instructions of generated code 1000 → 1001 (+0.1 %)".
+// Describes a changed value: "instructions in generated code 1000 → 1001 (+0.1 %)".
 [[nodiscard]] std::string text_of(const judge::Change& change);
 // Returns why a correlation line is refused, or "" if it is not.
 [[nodiscard]] std::string refusal(const judge::CorrelationLine& line);

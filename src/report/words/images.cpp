@@ -73,8 +73,8 @@ std::string size_differs(const Observation& what) {
 }
 
 std::string reference_changed(const Observation& what) {
-  std::string text = "the scene or its reference image changed since it was accepted";
-  if (what.because.empty()) return text + ": its hash differs";
+  std::string text = "the scene or its reference image has changed since the baseline was accepted";
+  if (what.because.empty()) return text + ": the hash of the reference image differs";
   return fmt::format("{}: {}", text, text_of(what.because.front()));
 }
 
@@ -109,16 +109,16 @@ std::string score(const Observation& what) {
 
 std::string farther_device(const Observation& what) {
   return fmt::format(
-      "the RMS difference from the image of {} is {:.3g}, allowed {:.3g}, and this image is "
-      "farther from the reference image (RMSE {:.3g}, compared with {:.3g})",
+      "the RMS difference from the image rendered by {} is {:.3g}, allowed {:.3g}, and this image "
+      "is farther from the reference image (RMSE {:.3g}, compared with {:.3g} for the other image)",
       what.fact("other"), what.number("rms"), what.number("allowed"), what.number("rmse"),
       what.number("rmse_of_other"));
 }
 
 std::string pixels_differ(const Observation& what) {
   return fmt::format(
-      "{:.0f} of {:.0f} pixels {} the image with {}; the first is pixel ({:.0f}, {:.0f}): {} "
-      "instead of {}",
+      "{:.0f} of {:.0f} pixels {} those of the image with {}; the first is pixel ({:.0f}, {:.0f}): "
+      "{} instead of {}",
       what.number("pixels_differing"), what.number("pixels"),
       what.fact("by") == "bits" ? "are not bit-identical to"
                                 : "differ by more than the sum of both error bounds from",

@@ -39,15 +39,15 @@ std::string missing(const Observation& what) {
 
 std::string other_plan(const Observation& what) {
   const std::string measured = what.fact("hash");
-  return fmt::format("run {} measured another version of the plan {} ({})", what.fact("run"),
-                     what.fact("plan"),
-                     measured.empty() ? "the run has no hash"
-                                      : fmt::format("hash {}, now {}", measured, what.fact("now")));
+  return fmt::format(
+      "run {} measured a different version of plan {} ({})", what.fact("run"), what.fact("plan"),
+      measured.empty() ? "the run contains no plan hash"
+                       : fmt::format("plan hash {}, now {}", measured, what.fact("now")));
 }
 
 std::string no_longer_reported(const Observation& what) {
-  if (what.names.empty()) return "these values are missing, although the baselines contain them";
-  return fmt::format("these values are missing for {}, although the baselines contain them",
+  if (what.names.empty()) return "the baselines contain values that this run does not report";
+  return fmt::format("for {}, the baselines contain values that this run does not report",
                      examples(what.names));
 }
 
@@ -61,7 +61,7 @@ std::string changed_in(const Observation& what, std::string_view which) {
       fmt::format("{} changed in {}", which,
                   counted(what.number("configurations"), "configuration", "configurations"));
   if (!what.changes.empty()) {
-    text += fmt::format(", the most in {}: {}", what.fact("configuration"),
+    text += fmt::format("; largest change in {}: {}", what.fact("configuration"),
                         text_of(what.changes.front()));
   }
   return text;
@@ -79,7 +79,7 @@ std::string_view fault_text(record::DeviceFaultKind kind) {
     case record::DeviceFaultKind::clock_rate_wrong:
       return "the device's clock does not run at the rate that the driver reports";
     case record::DeviceFaultKind::clock_not_written:
-      return "the driver never writes the requested time stamps";
+      return "the driver never writes the requested timestamps";
     case record::DeviceFaultKind::statistics_all_zero:
       return "all pipeline statistics are 0, even for frames that draw something";
     case record::DeviceFaultKind::statistics_crash:
@@ -89,11 +89,11 @@ std::string_view fault_text(record::DeviceFaultKind kind) {
       return "pipeline statistics do not become available, although Triptych waits for them, so "
              "everything else was measured without them";
     case record::DeviceFaultKind::teardown_crash:
-      return "the driver crashes while the device is closed or the process ends";
+      return "the driver crashes when the device is closed or the process exits";
     case record::DeviceFaultKind::teardown_hang:
-      return "the driver hangs while the device is closed or the process ends";
+      return "the driver hangs when the device is closed or the process exits";
     case record::DeviceFaultKind::memory_grows:
-      return "the memory of the process grows with each configuration";
+      return "the memory usage of the process grows with each configuration";
   }
   return {};
 }
@@ -110,7 +110,7 @@ std::string device_fault(const Observation& what) {
 
 std::string not_counted(const Observation& what) {
   std::string text = fmt::format("the counter {} is missing", what.fact("counter"));
-  if (!what.fact("levels").empty()) text += " with " + what.fact("levels");
+  if (!what.fact("levels").empty()) text += " for " + what.fact("levels");
   return text;
 }
 
@@ -151,8 +151,8 @@ std::string sentence_of(const Observation& what) {
       return no_required_device(what);
     case Cause::device_missing:
       return fmt::format(
-          "this device was not found, although it was accepted on a machine with the same driver "
-          "version for {} as this machine",
+          "this device was not found, although its baselines were accepted on a machine with the "
+          "same {} driver version as this machine",
           what.fact("sibling"));
     case Cause::listing_failed:
       return fmt::format("device enumeration failed for {}, so devices may be missing: {}",
@@ -163,22 +163,23 @@ std::string sentence_of(const Observation& what) {
           "device",
           what.fact("run"));
     case Cause::checks_lost:
-      return fmt::format("the plan no longer requests these accepted checks: {}",
+      return fmt::format("the baselines contain checks that the plan no longer requests: {}",
                          fmt::join(what.names, ", "));
     case Cause::missing:
       return missing(what);
     case Cause::extra:
-      return fmt::format("the run contains {} not in the plan", examples(what.names));
+      return fmt::format("the run contains {} that are not in the plan", examples(what.names));
     case Cause::other_plan:
       return other_plan(what);
     case Cause::other_data:
       return fmt::format(
-          "the data differ from the data that were accepted under this name (content hash {}, "
-          "accepted {})",
+          "the input data differ from the data accepted under this name (content hash {}, accepted "
+          "{})",
           what.fact("hash"), what.fact("accepted"));
     case Cause::data_changed:
-      return fmt::format("the data have changed since they were measured (content hash {}, now {})",
-                         what.fact("hash"), what.fact("now"));
+      return fmt::format(
+          "the input data have changed since this measurement (content hash {}, now {})",
+          what.fact("hash"), what.fact("now"));
     case Cause::no_baselines:
       return what.detail.empty() ? fmt::format("there are no baselines in {}", what.fact("folder"))
                                  : fmt::format("{}: {}", what.fact("folder"), what.detail);
@@ -192,8 +193,8 @@ std::string sentence_of(const Observation& what) {
           what.fact("test"), what.fact("device"), what.fact("expiry"), what.detail);
     case Cause::waiver_of_no_test:
       return fmt::format(
-          "the waiver for {} matches no test; test ids have the form SUITE.PLAN.CHECK.DEVICE, and "
-          "the key `configuration` limits a waiver to some configurations",
+          "the waiver for {} matches no test; a test id has the form SUITE.PLAN.CHECK.DEVICE; to "
+          "limit a waiver to some configurations, use the key `configuration`",
           what.fact("test"));
     case Cause::within_bound:
       return within_bound(what);
@@ -237,7 +238,7 @@ std::string sentence_of(const Observation& what) {
       return fmt::format("executables were added or removed since the baseline was accepted: {}",
                          fmt::join(what.names, ", "));
     case Cause::other_disassembly:
-      return fmt::format("the disassembly of {} changed, but the statistics did not",
+      return fmt::format("the disassembly of {} changed, but the code statistics did not",
                          examples(what.names));
     case Cause::other_compiler:
       return other_compiler(what);
@@ -259,7 +260,7 @@ std::string sentence_of(const Observation& what) {
                  : fmt::format("the time is meaningless, because the image is wrong: {}",
                                text_of(what.because.front()));
     case Cause::residuals_as_stored:
-      return fmt::format("the cost ratios to {1} are as stored in {0}",
+      return fmt::format("in {0}, the cost ratios to {1} agree with the stored ratios",
                          counted(what.number("configurations"), "configuration", "configurations"),
                          fmt::join(what.names, ", "));
     case Cause::residual_moved:
@@ -272,8 +273,8 @@ std::string sentence_of(const Observation& what) {
       return no_line(what);
     case Cause::no_partner:
       return fmt::format(
-          "the cost of this device cannot be correlated, because no stored cost of another device "
-          "was counted by {}",
+          "the cost of this device cannot be correlated with that of another device, because no "
+          "other device has a stored cost counted by {}",
           what.fact("counted_by"));
     case Cause::error:
       return error(what);
@@ -284,7 +285,8 @@ std::string sentence_of(const Observation& what) {
     case Cause::no_limit:
       return "errors cannot be measured, because no scene of this plan has a limit image";
     case Cause::no_limit_any_more:
-      return "an error is stored, but the scene no longer has a limit image";
+      return "the baselines contain an error for this scene, but the scene no longer has a limit "
+             "image";
     case Cause::order:
     case Cause::no_order:
       return order(what);

@@ -25,7 +25,8 @@ std::string signal_text(int signal) {
 }
 
 std::string out_of_memory_text(const Reason& reason) {
-  std::string text = fmt::format("ran out of host memory while using the data {}", reason.subject);
+  std::string text =
+      fmt::format("ran out of host memory while using the data set {}", reason.subject);
   if (const auto limit = reason.number("limit_bytes")) {
     text += fmt::format("; the worker may allocate at most {:.0f} MiB", *limit / (1 << 20));
   }
@@ -52,8 +53,7 @@ std::string cause_text(const Reason& reason) {
     case record::Cause::bad_input:
       return with_detail("invalid input", reason.detail);
     case record::Cause::not_on_processor:
-      return "instructions can be counted only for devices that run on the CPU, not for this "
-             "device";
+      return "instructions cannot be counted on this device, because it does not run on the CPU";
     case record::Cause::api_error:
     case record::Cause::device_lost:
       return api_text(reason);
@@ -78,8 +78,8 @@ std::string cause_text(const Reason& reason) {
       return with_detail("the worker cannot be started", reason.detail);
     case record::Cause::under_way:
       return fmt::format(
-          "Triptych or the machine ended abnormally {:.0f} times while measuring this "
-          "configuration; run without --resume to try it again",
+          "Triptych or the machine crashed {:.0f} times while this configuration was being "
+          "measured; run without --resume to try it again",
           reason.number("times").value_or(0));
   }
   return {};
@@ -103,8 +103,10 @@ std::string text_of(const Reason& reason) {
   std::string text = stage_text(reason) + cause_text(reason);
   if (!reason.last_words.empty()) text += "; the worker's last output: " + reason.last_words;
   if (reason.not_tried) {
-    text += fmt::format("; not tried, because other configurations{}{} ended in the same way",
-                        reason.shared_levels.empty() ? "" : " with ", reason.shared_levels);
+    text += fmt::format(
+        "; this configuration was not tried, because other configurations{}{} ended in the same "
+        "way",
+        reason.shared_levels.empty() ? "" : " with ", reason.shared_levels);
   }
   return text;
 }
@@ -121,11 +123,11 @@ std::string text_of(const StatisticWorth& worth) {
     case Worth::counts:
       return fmt::format("the driver reports the value of counter {} instead", worth.counter);
     case Worth::proportional:
-      return fmt::format("always {:.4g} times the true number", worth.low);
+      return fmt::format("always {:.4g} times the correct count", worth.low);
     case Worth::inflated:
-      return fmt::format("{:.4g} to {:.4g} times the true number{}", worth.low, worth.high, in());
+      return fmt::format("{:.4g} to {:.4g} times the correct count{}", worth.low, worth.high, in());
     case Worth::differs:
-      return "differs from the true number" + in();
+      return "differs from the correct count" + in();
     case Worth::unsteady:
       return "changes when the same frame is drawn again" + in();
     case Worth::absent:

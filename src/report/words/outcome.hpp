@@ -15,7 +15,7 @@ namespace triptych::report::words {
 // Like text_of(reason), but begins with the outcome: "hung: no answer within 60 s".
 [[nodiscard]] std::string text_of(record::Outcome outcome, const record::Reason& reason);
 
-// Describes how exactly a driver counts a statistic: "exact", "1.18 to 3.88 times the true number
+// Describes how exactly a driver counts a statistic: "exact", "1.18 to 3.88 times the correct count
 // (…)".
 [[nodiscard]] std::string text_of(const record::StatisticWorth& worth);
 

@@ -20,11 +20,11 @@ using judge::Observation;
 using judge::Unit;
 
 std::string label(const Change& change) {
-  if (change.unit == Unit::misses) return "cache misses of generated code";
+  if (change.unit == Unit::misses) return "cache misses in generated code";
   if (change.unit == Unit::instructions) {
     const bool generated = change.name == "device_code";
-    return generated ? "instructions of generated code"
-                     : fmt::format("instructions of the {}", change.name);
+    return generated ? "instructions in generated code"
+                     : fmt::format("instructions in the {}", change.name);
   }
   if (change.unit == Unit::bytes) return fmt::format("bytes of {}", change.name);
   return change.name;
@@ -98,7 +98,8 @@ std::string values_changed(const Observation& what) {
 // names that Mesa developers use.
 std::string other_compiler(const Observation& what) {
   std::string text = fmt::format(
-      "not judged, because driver version {} has a different compiler than the stored version {}",
+      "not judged, because driver version {} uses a different compiler than the accepted version "
+      "{}",
       what.fact("driver_version"), what.fact("other_version"));
   text += fmt::format("; {:.0f} of {} changed", what.number("changed"),
                       counted(what.number("configurations"), "configuration", "configurations"));
@@ -108,21 +109,23 @@ std::string other_compiler(const Observation& what) {
 
 std::string other_driver_statistics(const Observation& what) {
   std::string text = fmt::format(
-      "no statistics are stored for this driver version ({}) in {}; ", what.fact("driver_version"),
+      "this driver version ({}) has no stored statistics for {}; ", what.fact("driver_version"),
       counted(what.number("configurations"), "configuration", "configurations"));
   if (what.number("stored") == 0) {
-    text += "none are stored for other drivers either";
+    text += "other drivers have none either";
   } else if (!what.changes.empty()) {
     constexpr std::size_t shown = 3;
     std::vector<Change> first = what.changes;
     first.resize(std::min(first.size(), shown));
-    text += fmt::format("in {:.0f} of them, values differ from those of every stored driver: {}{}",
-                        what.number("differences"), list(first),
-                        what.changes.size() > shown ? "; …" : "");
+    text += fmt::format(
+        "in {:.0f} of them, values differ from the stored values of every driver: {}{}",
+        what.number("differences"), list(first), what.changes.size() > shown ? "; …" : "");
   } else if (what.number("compared") == 0 && !what.names.empty()) {
     text += "no value can be compared with the stored values of other drivers";
   } else {
-    text += "values on which all drivers must agree equal the stored values of another driver";
+    text +=
+        "the values that must be the same for all drivers match the stored values of another "
+        "driver";
   }
   if (!what.names.empty()) {
     text += fmt::format("; not compared, because not all drivers count them exactly: {}",
@@ -133,8 +136,8 @@ std::string other_driver_statistics(const Observation& what) {
 
 std::string other_counter(const Observation& what) {
   std::string text = fmt::format(
-      "cost is not judged, because the instructions of driver version {} were counted by {}, but "
-      "the stored cost is for driver version {}, counted by {}",
+      "cost is not judged, because the counts are not comparable: driver version {}, counted by "
+      "{}; stored: driver version {}, counted by {}",
       what.fact("driver_version"), what.fact("counted_by"), what.fact("other_version"),
       what.fact("other"));
   if (what.numbers.contains("median_ratio")) {
@@ -205,7 +208,7 @@ std::string off_the_line(const Observation& what) {
                   percent(what.number("ratio")), 100 * std::expm1(what.number("standard_error")),
                   what.fact("other"), what.number("q"));
   if (what.number("configurations") > 1) {
-    text += fmt::format(" ({:.0f} configurations, relative to all others)",
+    text += fmt::format(" ({:.0f} configurations, relative to all other configurations)",
                         what.number("configurations"));
   }
   return text +

@@ -57,7 +57,7 @@ TEST(SideBySide, UsesTimesIfNothingWasCountedAndReportsOmissions) {
   EXPECT_EQ(table->unit, "ns");
   EXPECT_THAT(report::screen_of(*table), HasSubstr("–"));
   EXPECT_THAT(report::words::sentence(*table),
-              HasSubstr("gl:x is best in 2 of its 2 techniques; gl:y takes 2.00"));
+              HasSubstr("gl:x is best in 2 of the 2 techniques measured on it; gl:y needs 2.00"));
   EXPECT_THAT(report::screen_of(*table), HasSubstr("\nbest  a 10 ms  a 20 ms  b 20 ms  \n"));
 }
 
@@ -72,8 +72,7 @@ TEST(SideBySide, ComparesTimesOnOneClock) {
   }
   records[1].device_clock_trusted = true;
   EXPECT_EQ(side_by_side(records)->rows.at(0).best, "gl:x");
-  EXPECT_THAT(report::screen_of(*side_by_side(records)),
-              HasSubstr("Time (wall clock) per frame"));
+  EXPECT_THAT(report::screen_of(*side_by_side(records)), HasSubstr("Time (wall clock) per frame"));
   records[0].device_clock_trusted = true;
   records[0].device_ns = {5e6};
   EXPECT_EQ(side_by_side(records)->rows.at(0).best, "gl:y");
