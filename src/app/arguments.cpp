@@ -18,11 +18,11 @@ void add_example(CLI::App& command, const std::string& example) {
 }
 
 void add_choice_options(CLI::App& command, PlanChoice& choice) {
-  command.add_option(
-      "--set", choice.set,
-      "factor=a,b: replace the plan's levels of this factor with these levels (repeatable); write "
-      "a comma inside a level as %2C");
-  command.add_option("--shard", choice.shard, "i/n: use only the i-th of n parts of the plan");
+  command.add_option("--set", choice.set,
+                     "factor=a,b: replace the plan's levels of this factor with a and b "
+                     "(repeatable); write a comma inside a level as %2C");
+  command.add_option("--shard", choice.shard,
+                     "i/n: divide the plan into n parts and use only the i-th part");
   add_selection_options(command, choice);
 }
 
@@ -32,9 +32,9 @@ void add_selection_options(CLI::App& command, PlanChoice& choice) {
                      "`triptych list PLAN` prints names and keys");
   command.add_option("--caselist", choice.caselist,
                      "Use only the configurations listed in this file, one name or key per line");
-  command.add_option(
-      "--fraction", choice.fraction,
-      "1/n: use only one n-th of the configurations; every call uses the same subset");
+  command.add_option("--fraction", choice.fraction,
+                     "1/n: use only one n-th of the configurations; repeated calls select the same "
+                     "configurations");
 }
 
 core::InputError nothing_selected(const PlanChoice& choice) {
@@ -68,12 +68,12 @@ void add_limit_option(CLI::App& command, int& seconds, const std::string& what) 
 
 void add_without_data_option(CLI::App& command, bool& without) {
   command.add_flag("--without-data", without,
-                   "Skip configurations whose data files are missing on this machine, even if they "
-                   "have baselines");
+                   "Accept that configurations are skipped if their data files are missing on this "
+                   "machine, even if these configurations have baselines");
 }
 
 void add_verbose_option(CLI::App& command, bool& verbose) {
-  command.add_flag("--verbose", verbose, "Print a line for each configuration that is measured");
+  command.add_flag("--verbose", verbose, "Print one line for each measured configuration");
 }
 
 void print(const core::Json& json, int indent) {

@@ -33,9 +33,9 @@ void add_ci_option(CLI::App& command, std::string& name) {
   command
       .add_option(
           "--ci", name,
-          "Also write output for a CI system: github (annotations, job summary, folded log), "
-          "gitlab (codequality.json in --out, folded log), none, or auto (detect the system from "
-          "its environment variables)")
+          "Also write output for a CI system: github (annotations, a job summary and collapsible "
+          "log sections), gitlab (codequality.json in the --out folder, and collapsible log "
+          "sections), none, or auto (detect the CI system from its environment variables)")
       ->capture_default_str();
 }
 
@@ -76,7 +76,7 @@ void add_to_job_summary(CiSystem system, const std::string& markdown) {
   if (system != CiSystem::github || file.empty()) return;
   std::ofstream out(file, std::ios::binary | std::ios::app);
   out << markdown << '\n' << std::flush;
-  if (!out) say("triptych: cannot write the job summary {}\n", file);
+  if (!out) say("triptych: cannot write the job summary to {}\n", file);
 }
 
 LogSection::LogSection(CiSystem system, std::string title) : system_(system) {

@@ -51,8 +51,8 @@ void print_not_judged(const JudgedCompilers& compilers, const std::string& plan)
         plan);
     return;
   }
-  say("triptych: {} is not judged on {}, because the baselines contain no code for {}; to see the "
-      "differences from other versions, run `triptych gate {}`\n",
+  say("triptych: {} is not judged on {}, because the baselines contain no compiled code for {}; to "
+      "compare with other driver versions, run `triptych gate {}`\n",
       plan, fmt::join(compilers.not_stored, ", "),
       compilers.not_stored.size() == 1 ? "this driver version" : "these driver versions", plan);
 }

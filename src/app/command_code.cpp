@@ -50,7 +50,7 @@ void print_statistics(const record::Executable& executable, bool samples) {
 void print_text(const record::Device& device, const record::Record& record,
                 const record::Store& store, bool brief) {
   put("{}: {}, driver {}{}\n", device.id, device.name, device.driver_version,
-      device.compiles_for.empty() ? "" : "; only compiles; nothing is executed on it");
+      device.compiles_for.empty() ? "" : "; compiles code but cannot execute it");
   put("{}\n", record.configuration);
   for (const auto& [name, executable] : record.code) {
     put("\n{}\n", name);

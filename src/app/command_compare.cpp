@@ -106,7 +106,7 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
 core::ExitCode compare(const CompareArguments& arguments) {
   if (arguments.apis) return show_apis(arguments);
   if (arguments.a.empty() || arguments.b.empty()) {
-    throw core::InputError("compare needs two sides (--a and --b), or --apis with --store");
+    throw core::InputError("compare needs two sides: either --a and --b, or --apis and --store");
   }
   Comparing comparing = arguments.comparing;
   comparing.a = parse_side("--a", arguments.a, arguments.a_program);
@@ -178,29 +178,30 @@ void add_compare_commands(Commands& commands) {
                                  fmt::join(main_job, " ")));
   add_choice_options(command, comparing.choice);
   constexpr const char* side =
-      "DEVICE[,NAME=VALUE]…: a device, with environment variables that are set for this side only";
+      "DEVICE[,NAME=VALUE]…: the device to measure on this side, and environment variables to set "
+      "for this side only";
   command.add_option("--a", arguments.a, side);
   command.add_option("--b", arguments.b, side);
   command.add_option("--a-program", arguments.a_program,
-                     "Measure side a with the triptych program at this path");
+                     "Measure side a with the triptych executable at this path");
   command.add_option("--b-program", arguments.b_program,
-                     "Measure side b with the triptych program at this path");
+                     "Measure side b with the triptych executable at this path");
   command.add_flag("--no-times", arguments.no_times,
                    "Compare only deterministic measurements, not frame times");
-  command.add_flag(
-      "--apis", arguments.apis,
-      "Measure nothing; print a table of the devices in --store, with one row per technique");
+  command.add_flag("--apis", arguments.apis,
+                   "Do not measure; print a table that compares the devices in --store, with one "
+                   "row per technique");
   command
       .add_option("--budget", comparing.budget_s,
                   "Stop measuring frame times after this many seconds (default: no limit)")
       ->check(CLI::Range(1, 1000000));
   add_limit_option(command, comparing.limit_s, "a worker that does not respond");
   command.add_option("--store", comparing.store,
-                     "SQLite file in which both runs are saved (default: the runs are not saved)");
+                     "Save both runs in this SQLite file (default: do not save them)");
   command.add_option("--seed", comparing.seed, "Seed for the random order of the measurements")
       ->capture_default_str();
   add_inject_option(command, comparing.faults,
-                    "Inject a fault into side b to check that the comparison finds it; see "
+                    "Inject a fault into side b to check that the comparison detects it; see "
                     "`triptych run --help`");
   add_verbose_option(command, comparing.verbose);
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");

@@ -35,7 +35,7 @@ void print_text(const Devices& found) {
         each.device.driver_version, each.device.api_version);
     if (each.refused) put("  cannot be used: {}\n", text_of(*each.refused));
     if (!each.device.compiles_for.empty()) {
-      put("  only compiles, for the GPU family {}; nothing is executed on it\n",
+      put("  compiles code for the GPU family {} but cannot execute it\n",
           each.device.compiles_for);
     }
     for (const record::ClockTrust& clock : each.clocks) {
@@ -53,10 +53,10 @@ void print_text(const Devices& found) {
     }
   }
   for (const measure::Broken& each : found.broken) {
-    put("cannot be used: {}: {}\n", each.what, why(each));
+    put("{} cannot be used: {}\n", each.what, why(each));
   }
   if (found.compilers.empty()) return;
-  put("compilers for GPUs that are not in this machine (not opened; use --compilers to open "
+  put("compilers for GPUs that are not in this machine (not loaded; use --compilers to load "
       "them):\n");
   for (const std::string& each : found.compilers) put("  {}\n", each);
 }
@@ -119,7 +119,7 @@ void add_devices_command(Commands& commands) {
   command.add_option("--device", arguments.devices,
                      "List only devices that match this glob (repeatable; default: all)");
   command.add_flag("--compilers", arguments.compilers,
-                   "Also open the compilers for GPUs that are not in this machine");
+                   "Also load and list the compilers for GPUs that are not in this machine");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
   add_example(command, "triptych devices --json");
 }

@@ -81,10 +81,10 @@ lists these variables.
 
 std::string manual(const CLI::App& program) {
   std::string text = fmt::format(
-      ".TH TRIPTYCH 1 \"\" \"triptych {}\"\n.SH NAME\ntriptych \\- check the images, work and cost "
-      "of GPU drivers\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... [PLAN]...\n.SH DESCRIPTION\n"
-      "{}.\n.PP\n.B triptych gate \\-\\-measure\nmeasures and judges every device found.\n.SH "
-      "COMMANDS\n",
+      ".TH TRIPTYCH 1 \"\" \"triptych {}\"\n.SH NAME\ntriptych \\- test GPU drivers by comparing "
+      "images, amount of work and cost\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... "
+      "[PLAN]...\n.SH DESCRIPTION\n{}.\n.PP\n.B triptych gate \\-\\-measure\nmeasures and judges every device of "
+      "this machine.\n.SH COMMANDS\n",
       roff(version()), roff(program.get_description()));
   for (const CLI::App* command : shown_commands(program)) text += section(*command);
   text += fmt::format(".SH EXIT STATUS\n{}\n", roff(program.get_footer()));

@@ -93,11 +93,12 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
   std::vector<const record::Store*> all(stores.size());
   std::ranges::transform(stores, all.begin(), [](const record::Store& each) { return &each; });
   core::require_writable(arguments.out);
-  report::ExportRequest request{
-      .plan = plan_in(stores, arguments.plan),
-      .folder = arguments.out,
-      .made_by = "triptych " + version(),
-      .begins = [](const record::Run& run) { say("exporting run {} of {}\n", run.id, run.plan); }};
+  report::ExportRequest request{.plan = plan_in(stores, arguments.plan),
+                                .folder = arguments.out,
+                                .made_by = "triptych " + version(),
+                                .begins = [](const record::Run& run) {
+                                  say("exporting run {} of the plan {}\n", run.id, run.plan);
+                                }};
   std::optional<Errors> errors;
   if (arguments.errors) {
     errors.emplace(arguments.stores);
@@ -120,13 +121,13 @@ void add_export_command(Commands& commands) {
       "export", "Export stores as CSV tables, with a dictionary of the columns", write_tables);
   command.add_option("STORE", arguments.stores, "Stores to export (SQLite files)")->required();
   command.add_option("--out", arguments.out, "Folder for the CSV files")->required();
-  command.add_option(
-      "--plan", arguments.plan,
-      "Export only this plan: SUITE/PLAN or the YAML file, as given to `run` (default: all)");
+  command.add_option("--plan", arguments.plan,
+                     "Export only this plan, named as in the `run` command: SUITE/PLAN or a YAML "
+                     "file (default: all plans)");
   command.add_flag("--errors", arguments.errors,
-                   "Also write errors.csv: the errors of each image against its reference image "
-                   "and its limit image, in four metrics; draws the reference and limit images "
-                   "that are not in the store");
+                   "Also write errors.csv, which contains four error metrics for each image, "
+                   "relative to its reference image and to its limit image; reference and limit "
+                   "images that are not in the store are rendered first");
   command.add_flag("--json", arguments.json, "Print the number of rows in each table as JSON");
   add_example(command, "triptych export results.sqlite --out tables");
 }

@@ -39,13 +39,13 @@ core::ExitCode answer(const std::string& device) {
 void add_features_command(Commands& commands) {
   auto [command, arguments] =
       commands.add("features",
-                   "Check API features that no scene needs, such as large offsets, many draws and "
-                   "sampling modes",
+                   "Check API features that no scene uses, such as large buffer offsets, large "
+                   "numbers of draws, and sampling modes",
                    features);
   command.add_option("--device", arguments.devices,
                      "Check only devices that match this glob (repeatable; default: all)");
   command.add_option("--only", arguments.only, "Check only the feature with this name");
-  add_limit_option(command, arguments.limit_s, "the probe of a feature");
+  add_limit_option(command, arguments.limit_s, "a feature probe");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
   add_example(command, "triptych features --device 'vulkan:*'");
 

@@ -105,7 +105,8 @@ std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry&
   if (plans.empty() && arguments.choice.selects()) throw nothing_selected(arguments.choice);
   if (plans.empty()) {
     throw core::InputError(
-        "--check and --without together leave no check in any plan; choose different checks");
+        "--check and --without together exclude every check of every plan; choose different "
+        "checks");
   }
   return plans;
 }
@@ -179,7 +180,8 @@ void limit_to_stored_code(const GateArguments& arguments, const Registry& regist
   });
   if (plans.empty()) {
     throw core::NotSupported(
-        "there is nothing to judge, because the baselines contain no code for these devices");
+        "there is nothing to judge, because the baselines contain no compiled code for these "
+        "devices");
   }
 }
 
@@ -270,7 +272,7 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, typed, arguments.store), baselines.folder(), request);
   for (const std::string& change : changes) put_lines(change + "\n");
-  put("{}: {} changes under {}; review them before you commit\n", plan, changes.size(),
+  put("{}: {} changes in {}; review them before you commit\n", plan, changes.size(),
       baselines.name().string());
 }
 
@@ -297,7 +299,7 @@ core::ExitCode accept(const AcceptArguments& arguments) {
   }
   baselines.keep();
   if (!baselines.copied_from().empty()) {
-    put("{} was created; all values that were not just accepted are copied from {}\n",
+    put("{} was created; all baselines that this command did not accept were copied from {}\n",
         baselines.name().string(), baselines.copied_from().string());
   }
   return core::ExitCode::pass;
@@ -309,36 +311,37 @@ void add_accept_command(Commands& commands) {
   add_example(command,
               "triptych accept volume/quick --store results.sqlite --reason 'new driver version'");
   command.add_option("PLAN", arguments.plans,
-                     "SUITE/PLAN or the YAML file, as given to `run` (default: every plan in the "
-                     "store)");
+                     "Plans to accept, named as in the `run` command: SUITE/PLAN or a YAML file "
+                     "(default: every plan in the store)");
   command
       .add_option("--reason", arguments.reason,
-                  "The reason for the change, which is saved in history.json")
+                  "Reason for the change; it is saved in history.json")
       ->required();
   command.add_option("--only", arguments.only, "Accept only configurations that match this glob");
   command.add_flag("--drop", arguments.drop,
-                   "Also remove the baselines of configurations that the run does not contain, and "
+                   "Also remove the baselines of configurations that are missing from the run, and "
                    "discard baseline files that were edited after they were accepted; with --only, "
                    "remove the baselines of matching configurations that a device now skips");
   command.add_option("--store", arguments.store, "SQLite file with the records")
       ->capture_default_str();
-  add_baselines_option(
-      command, arguments.baselines,
-      "Folder to write to (default: ./baselines; if it does not exist, it is created "
-      "as a copy of the installed baselines)");
+  add_baselines_option(command, arguments.baselines,
+                       "Write the baselines to this folder (default: ./baselines; if it does not "
+                       "exist, it is created as a copy of the installed baselines)");
 }
 
 }  // namespace
 
 void add_gate_commands(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "gate", "Judge the latest run of each plan, or measure the plans and judge them", gate);
+      "gate", "Judge the latest run of each plan; with --measure, measure the plans first", gate);
   add_example(command, "triptych gate --measure --store gate.sqlite --out out");
-  command.add_option("PLAN", arguments.plans,
-                     fmt::format("SUITE/PLAN or the YAML file, as given to `run` (default: {})",
-                                 fmt::join(gate_job(), " ")));
+  command.add_option(
+      "PLAN", arguments.plans,
+      fmt::format(
+          "Plans to judge, named as in the `run` command: SUITE/PLAN or a YAML file (default: {})",
+          fmt::join(gate_job(), " ")));
   add_choice_options(command, arguments.choice);
-  command.add_flag("--measure", arguments.measure, "Measure new runs before judging");
+  command.add_flag("--measure", arguments.measure, "Measure the plans before judging them");
   command.add_option("--store", arguments.store, "SQLite file with the records")
       ->capture_default_str();
   add_baselines_option(command, arguments.baselines);
@@ -346,30 +349,30 @@ void add_gate_commands(Commands& commands) {
       .add_option(
           "--check", arguments.checks,
           fmt::format(
-              "Run only these checks; possible checks: {} (default: the checks of the plan)",
+              "Run only these checks (default: all checks of the plan); available checks: {}",
               record::text_of(record::every_check())))
       ->delimiter(',');
   command
       .add_option("--without", arguments.without,
-                  "Leave out these checks; leaving out cost also leaves out the plans that count "
-                  "instructions, and leaving out code also leaves out the plans that only compile")
+                  "Omit these checks; omitting `cost` also omits the plans that count "
+                  "instructions, and omitting `code` also omits the plans that only compile")
       ->delimiter(',');
   add_devices_option(command, arguments.devices);
-  command.add_option(
-      "--require", arguments.required,
-      "Require that something was measured on a device that matches this glob (repeatable)");
+  command.add_option("--require", arguments.required,
+                     "Exit with code 2 unless every plan contains a measurement from a device that "
+                     "matches this glob (repeatable)");
   command.add_option(
       "--without-device", arguments.without_devices,
-      "Do not expect devices that match this glob on this machine, and ignore failed device "
-      "enumeration for APIs that match it (repeatable; see docs/gate.md)");
+      "Accept that devices that match this glob are missing on this machine, and that device "
+      "enumeration fails for APIs that match it (repeatable; see docs/gate.md)");
   add_without_data_option(command, arguments.without_data);
   command.add_flag("--times", arguments.times,
                    "Let frame times affect the verdict (only for dedicated benchmarking machines)");
-  CLI::Option* base = command.add_option(
-      "--base", arguments.base,
-      "Compare each device with itself under another build or driver instead of with the "
-      "baselines; give the path of another triptych program, or NAME=VALUE,… to select a driver "
-      "with environment variables");
+  CLI::Option* base =
+      command.add_option("--base", arguments.base,
+                         "PROGRAM or NAME=VALUE,…: instead of using baselines, compare each device "
+                         "with the same device in another triptych build (the executable PROGRAM), "
+                         "or under the driver that these environment variables select");
   command.add_option(
       "--out", arguments.out,
       "Folder for report.html, gate.log, summary.md, benchmark.json and one JUnit XML file per "

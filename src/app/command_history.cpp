@@ -63,11 +63,10 @@ core::ExitCode history(const HistoryArguments& arguments) {
 }  // namespace
 
 void add_history_command(Commands& commands) {
-  auto [command, arguments] = commands.add(
-      "history",
-      "Show how cost and frame times changed from store to store, and name the first store that is "
-      "worse",
-      history);
+  auto [command, arguments] = commands.add("history",
+                                           "Show how cost and frame times changed from store to "
+                                           "store, and identify the first store that is worse",
+                                           history);
   command.add_option("STORE", arguments.stores, "Stores that contain the same plans, in any order")
       ->required();
   add_devices_option(command, arguments.devices);

@@ -26,7 +26,8 @@ struct MergeArguments {
 
 void tell_left_out(const record::RecordCounts& counts) {
   if (counts.repeated > 0) {
-    put("  {} records occur in several stores; each record is kept once\n", counts.repeated);
+    put("  {} records occur in several stores; one copy of each record was kept\n",
+        counts.repeated);
   }
   if (counts.injected > 0) {
     put("  {} records with an injected fault were replaced by records without one\n",
@@ -37,7 +38,7 @@ void tell_left_out(const record::RecordCounts& counts) {
         counts.measured_anew);
   }
   if (counts.not_chosen > 0) {
-    put("  {} records were dropped, because another store has a different record of the same "
+    put("  {} records were dropped, because another store has a different record for the same "
         "configuration and device; the record with the lower seal (hash) was kept\n",
         counts.not_chosen);
   }
@@ -102,7 +103,8 @@ core::ExitCode merge(const MergeArguments& arguments) {
   if (arguments.out.empty()) throw core::InputError("--out is required; name the store to write");
   if (std::ranges::none_of(arguments.stores, holds_a_run)) {
     throw core::NotSupported(
-        fmt::format("there is nothing to merge: no runs in {}", fmt::join(arguments.stores, ", ")));
+        fmt::format("there is nothing to merge, because no store contains a run: {}",
+                    fmt::join(arguments.stores, ", ")));
   }
   core::require_writable(std::filesystem::path(arguments.out).parent_path());
   // Everything that can fail is done before the merged store is created.
@@ -147,11 +149,11 @@ void add_merge_command(Commands& commands) {
       command
           .add_flag(
               "--check", arguments.check,
-              "Merge nothing; list the incomplete stores, and exit with code 2 if there are any")
+              "Do not merge; list the incomplete stores, and exit with code 2 if there are any")
           ->excludes(out);
   command
       .add_option("--plan", arguments.plans,
-                  "With --check: require that every store contains a run of this plan (repeatable)")
+                  "With --check: also list stores that contain no run of this plan (repeatable)")
       ->needs(check);
 }
 

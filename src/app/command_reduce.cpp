@@ -205,26 +205,26 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
 
 void add_reduce_command(Commands& commands) {
   auto [command, arguments] = commands.add(
-      "reduce", "Find the smallest frame that still fails, and write a folder for a bug report",
+      "reduce", "Find the smallest frame that still fails, and write the files for a bug report",
       reduce);
   arguments.frame.add_to(command);
   command.add_option("--out", arguments.frame.out, "Write the files to this folder")
       ->capture_default_str();
   command.add_option("--against", arguments.against,
-                     "Compare the counters with those of this device, which are assumed to be "
-                     "correct; a difference is a failure");
+                     "Assume that the counters of this device are correct, and treat any "
+                     "difference from them as a failure");
   command
       .add_option(
           "--limit", arguments.limit_s,
           "Treat a frame as hung after this many seconds (default: three times the duration "
           "of the first frame, but at least 20)")
       ->check(CLI::Range(1, 86400));
-  command.add_option("--frames", arguments.frames, "The maximum number of frames to draw")
+  command.add_option("--frames", arguments.frames, "Draw at most this many frames")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000000));
   command.add_flag("--truth", arguments.truth,
-                   "Has no effect, because reduce always compares with the reference image; it is "
-                   "accepted so that a `render` command can be reused");
+                   "Has no effect, because `reduce` always compares with the reference image; this "
+                   "option exists so that a `render` command can be reused");
   add_example(command,
               "triptych reduce volume --device vulkan:lavapipe --set viewport=64 --out small");
 }

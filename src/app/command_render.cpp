@@ -235,8 +235,8 @@ void add_render_command(Commands& commands) {
                    "Draw only one frame, in this process, for debuggers and capture tools "
                    "(RenderDoc, apitrace, gfxreconstruct); objects and passes have debug names");
   command.add_option("--dump", arguments.dump,
-                     "Write all of the driver's input to this folder: device code, options, "
-                     "parameters and buffers; implies --in-process");
+                     "Write everything that the driver receives (device code, options, parameters "
+                     "and buffers) to this folder; implies --in-process");
   command.add_option("--pixel", arguments.pixel,
                      "X,Y: print the device's results for this pixel, sample by sample (volumes) "
                      "or sphere by sphere (particles), and mark the first difference from the "
@@ -244,9 +244,10 @@ void add_render_command(Commands& commands) {
   command.add_flag("--truth", arguments.truth,
                    "Compare with the reference image: write truth.exr, truth.png and "
                    "difference.png, and exit with code 1 if the image is wrong");
-  command.add_flag("--describe", arguments.describe,
-                   "Draw nothing; describe the data instead (format, size, spacing, orientation, "
-                   "elements, range, a small image); needs neither --device nor --out");
+  command.add_flag(
+      "--describe", arguments.describe,
+      "Do not draw; print a summary of the data instead (format, size, spacing, orientation, "
+      "elements, range, and a small text preview); needs neither --device nor --out");
   add_example(command,
               "triptych render volume --device vulkan:lavapipe --set viewport=256 --out frame");
 }

@@ -53,10 +53,10 @@ core::ExitCode write_report(const ReportArguments& arguments) {
 }  // namespace
 
 void add_report_command(Commands& commands) {
-  auto [command, arguments] =
-      commands.add("report", "Write one self-contained HTML page about a store", write_report);
+  auto [command, arguments] = commands.add(
+      "report", "Write a self-contained HTML report on the results in a store", write_report);
   add_example(command, "triptych report --store results.sqlite --out report.html");
-  command.add_option("--store", arguments.store, "SQLite file with the records")
+  command.add_option("--store", arguments.store, "SQLite file that contains the results")
       ->capture_default_str();
   command.add_option("--out", arguments.out, "The HTML file to write")->capture_default_str();
   add_baselines_option(command, arguments.baselines);

@@ -85,7 +85,7 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
   add_choice_options(command, measuring.choice);
   command.add_option("--device", measuring.devices,
                      "Measure only devices that match this glob (repeatable; default: all)");
-  command.add_option("--store", measuring.store, "SQLite file for the records")
+  command.add_option("--store", measuring.store, "Write the results to this SQLite file")
       ->capture_default_str();
   add_limit_option(command, measuring.limit_s, "a configuration");
   constexpr std::uint64_t least_memory = std::uint64_t{64} << 20;
@@ -97,11 +97,12 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
       ->check(CLI::Range(least_memory, std::numeric_limits<std::uint64_t>::max()));
   add_verbose_option(command, measuring.verbose);
   command.add_flag("--untimed", measuring.untimed,
-                   "Draw only one frame for the image and one for the counters; measure neither "
-                   "times nor statistics");
+                   "For each configuration, draw only one frame for the image and one frame for "
+                   "the counters; omit frame times and driver statistics");
   command
-      .add_flag("--timed", measuring.timed,
-                "Measure times even for plans without the timing check, such as SUITE/accuracy")
+      .add_flag(
+          "--timed", measuring.timed,
+          "Measure frame times even for plans without the check `timing`, such as SUITE/accuracy")
       ->excludes("--untimed");
   command.add_flag(
       "--measure-every", measuring.measure_every,
@@ -109,7 +110,7 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
       "same scene");
   add_inject_option(
       command, measuring.faults,
-      "Inject a fault to check that the gate finds it: " + measure::fault_names() +
+      "Inject a fault to check that the gate detects it: " + measure::fault_names() +
           "; FAULT@factor=level,… limits the fault to matching configurations, and FAULT@GLOB to "
           "matching devices");
 }

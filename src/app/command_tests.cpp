@@ -101,13 +101,12 @@ core::ExitCode check(const CheckArguments& arguments) {
 
 void add_test_commands(Commands& commands) {
   auto [tests, listed] = commands.add(
-      "ctest", "Write a CTest file with the tests of this machine's devices", list_tests);
+      "ctest", "Write a CTest file that tests the devices of this machine", list_tests);
   tests.add_option("PLAN", listed.plans, "Plans to test: YAML files, or SUITE/PLAN")->required();
   tests.add_option("--one-per-driver", listed.large,
-                   "A plan to measure on only one of several devices with the same driver "
-                   "(repeatable)");
-  tests.add_option("--out", listed.out, "The CTest file to write")->required();
-  tests.add_option("--folder", listed.folder, "The folder for the stores that the tests write")
+                   "Measure this plan on only one device per driver (repeatable)");
+  tests.add_option("--out", listed.out, "Write the CTest file to this path")->required();
+  tests.add_option("--folder", listed.folder, "Folder to which the tests write their stores")
       ->required();
   add_example(tests, "triptych ctest volume/quick --out tests.cmake --folder stores");
 

@@ -164,8 +164,8 @@ class Validation {
       records.insert(records.end(), of_plan.begin(), of_plan.end());
     }
     const auto coverage = report::coverage_of(records);
-    const std::string text =
-        report::coverage_text(coverage) + "features that no scene needs\n" + feature_text(features);
+    const std::string text = report::coverage_text(coverage) + "API features that no scene uses\n" +
+                             feature_text(features);
     const std::filesystem::path folder(arguments_.out);
     core::write_text(folder / "coverage.txt", text + report::bounds_text(wide_bounds(records)));
     core::write_text(
@@ -320,8 +320,8 @@ core::ExitCode validate(const ValidateArguments& arguments) {
   validation.tell_coverage(features);
   const core::ExitCode told = validation.tell(since.seconds());
   if (verdict_of(features) != core::ExitCode::regression) return told;
-  say("the exit code is 1, because a device failed probes of API features that no scene needs; see "
-      "coverage.txt\n");
+  say("the exit code is 1, because a device failed the probe of an API feature that no scene uses; "
+      "see coverage.txt\n");
   return core::ExitCode::regression;
 }
 
@@ -339,15 +339,15 @@ void add_validate_command(Commands& commands) {
       ->required();
   command
       .add_option("--out", arguments.out,
-                  "Folder for the store and for the files that `gate --out` writes")
+                  "Write the store and the same files as `gate --out` to this folder")
       ->capture_default_str();
   command.add_option("--junit", arguments.junit,
                      "Write a JUnit XML report for all plans to this file");
   command.add_option("--json", arguments.json,
                      "Write all findings as JSON to this file; use - for standard output");
-  command.add_flag(
-      "--resume", arguments.resume,
-      "Continue with the store in the folder after an interruption or a machine crash");
+  command.add_flag("--resume", arguments.resume,
+                   "Continue an interrupted validation from the store in the --out folder, even "
+                   "after a machine crash");
   command
       .add_option("--jobs", arguments.jobs,
                   "Run this many workers at the same time, even on a single device (default: one "
@@ -356,17 +356,16 @@ void add_validate_command(Commands& commands) {
   command
       .add_option("--repeat", arguments.repeat,
                   "Draw everything this many times; a case that fails in only some repetitions is "
-                  "a flake, which counts as a failure; repeats.jsonl in the folder has one line "
-                  "per case")
+                  "a flake, which counts as a failure; repeats.jsonl in the --out folder has one "
+                  "line per case")
       ->check(CLI::Range(1, 1000));
   add_limit_option(command, arguments.limit_s, "a configuration");
   command.add_option("--shard", arguments.choice.shard,
-                     "i/n: use only the i-th of n parts of each plan");
+                     "i/n: divide each plan into n parts and use only the i-th part");
   add_selection_options(command, arguments.choice);
-  command.add_option(
-      "--expect", arguments.expect,
-      "Waive the known failures, flakes and skips in this file (see --write-expect); everything "
-      "else must pass");
+  command.add_option("--expect", arguments.expect,
+                     "Waive the known failures, flakes and skips that are listed in this file (see "
+                     "--write-expect); everything else must pass");
   command.add_option("--write-expect", arguments.write_expect,
                      "Write all failures, flakes and skips to this file, for use with --expect");
   add_baselines_option(command, arguments.baselines);

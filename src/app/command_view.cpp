@@ -85,7 +85,7 @@ std::vector<measure::ViewSide> sides_of(const ViewArguments& arguments,
   for (const std::string& each : arguments.devices) add_sides(listing, each, sides);
   if (sides.size() > most_columns) {
     throw core::InputError(
-        fmt::format("--device matches {} devices, but the window shows at most {}", sides.size(),
+        fmt::format("--device matches {} devices, but the window can show at most {}", sides.size(),
                     most_columns));
   }
   return sides;
@@ -105,7 +105,8 @@ core::ExitCode view(const ViewArguments& arguments) {
   const auto [suite, plan] = choose_data(registry, arguments.frame);
   if (!plan.automatic.empty()) {
     throw core::InputError(
-        "the window shows one technique at a time; name a technique instead of auto");
+        "technique=auto is not possible, because the window shows one technique at a time; name a "
+        "technique");
   }
   for (const auto& each : measure::parse_faults(arguments.frame.faults)) {
     measure::check_fault(each.fault);
@@ -147,15 +148,16 @@ void add_view_command(Commands& commands) {
       "device per API); DEVICE,NAME=VALUE,… sets environment variables for the "
       "driver, so that two drivers can be shown side by side");
   command.add_option("--set", arguments.frame.set,
-                     "factor=level (repeatable); write a comma inside a level as %2C");
+                     "factor=level: set this factor to this level (repeatable); write a comma "
+                     "inside a level as %2C");
   add_inject_option(command, arguments.frame.faults,
                     "Inject a fault (repeatable); see `triptych run --help`");
   add_limit_option(command, arguments.limit_s, "a frame");
   command.add_option("--size", arguments.size, "Size of the window in pixels")
       ->capture_default_str();
   command.add_option("--screenshot", arguments.screenshot,
-                     "Wait until every device has drawn, write the window as a PNG to this file, "
-                     "and exit");
+                     "Wait until every device has drawn, save a screenshot of the window as a PNG "
+                     "image to this file, and exit");
   command.add_flag("--json", arguments.json,
                    "Print the displayed results as JSON when the window is closed");
   add_example(command,

@@ -53,8 +53,9 @@ void give_options_one_value(CLI::App& program) {
 
 ExitCode run(int argc, char** argv) {
   CLI::App program{
-      "Cross-API portability tests: draws the same scenes through OpenCL, Vulkan and OpenGL, and "
-      "compares images, work and cost with a reference renderer and with stored baselines",
+      "Cross-API portability tests: draws the same scenes with OpenCL, Vulkan and OpenGL, compares "
+      "the images with a reference renderer, and compares the amount of work and its cost with "
+      "stored baselines",
       "triptych"};
   program.set_version_flag("--version", "triptych " + app::version());
   program.require_subcommand(1);

@@ -6,12 +6,13 @@
 namespace triptych::app {
 
 void FrameArguments::add_to(CLI::App& command) {
-  command.add_option("SUITE", suite, "The suite: volume or particles")->required();
-  CLI::Option* const option =
-      command.add_option("--device", device, "A device id, or a glob that matches one device");
+  command.add_option("SUITE", suite, "Suite: volume or particles")->required();
+  CLI::Option* const option = command.add_option(
+      "--device", device, "Device id, or a glob that matches exactly one device");
   if (!describes) option->required();
   command.add_option("--set", set,
-                     "factor=level (repeatable); write a comma inside a level as %2C");
+                     "factor=level: set this factor to this level (repeatable); write a comma "
+                     "inside a level as %2C");
   add_inject_option(command, faults, "Inject a fault (repeatable); see `triptych run --help`");
 }
 

@@ -70,7 +70,7 @@ std::string Choices::set(const std::string& factor, std::string_view value) {
   try {
     const measure::Plan plan = measure::default_plan(suite_, overrides);
     if (plan.configurations.size() != 1 || !plan.automatic.empty()) {
-      return fmt::format("{}={} stands for several values, but the window can show only one",
+      return fmt::format("{}={} selects several configurations, but the window can show only one",
                          factor, value);
     }
     if (std::string missing = suite_.missing_data(plan.configurations.front()); !missing.empty()) {

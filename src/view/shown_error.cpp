@@ -29,15 +29,15 @@ std::string headline_of(const accuracy::ImageComparison& comparison) {
   if (comparison.within_bound()) {
     return comparison.largest.error == 0
                ? std::string("no difference")
-               : fmt::format("at most {:.3g} of the bound", comparison.worst.ratio);
+               : fmt::format("errors up to {:.3g} times the bound", comparison.worst.ratio);
   }
   if (comparison.non_finite > 0)
-    return fmt::format("{} pixels are not finite", comparison.non_finite);
+    return fmt::format("{} pixels with non-finite values", comparison.non_finite);
   if (comparison.over_bound > 0) {
     return fmt::format("{} pixel{} beyond the bound", comparison.over_bound,
                        comparison.over_bound == 1 ? "" : "s");
   }
-  return fmt::format("{} pixels show another surface",
+  return fmt::format("{} pixels show a different surface",
                      comparison.wrong_ids + comparison.wrong_depths);
 }
 
@@ -49,8 +49,9 @@ std::string sentence_of(const accuracy::ImageComparison& comparison, const core:
   }
   if (comparison.size_mismatch) return fmt::format("the image from {} has a different size", other);
   return fmt::format(
-      "{} of {} pixels differ from {} by more than both bounds allow; largest difference {:.3g}, "
-      "RMS difference {:.3g}; the worst pixel is ({}, {}): difference {:.3g}, bound {:.3g}",
+      "{} of {} pixels differ from {} by more than the combined bound of both devices; largest "
+      "difference {:.3g}, RMS difference {:.3g}; the worst pixel is ({}, {}): difference {:.3g}, "
+      "bound {:.3g}",
       comparison.over_bound, comparison.pixels, other, comparison.largest.error, comparison.rmse,
       comparison.worst.x, comparison.worst.y, comparison.worst.error, comparison.worst.bound);
 }

@@ -104,10 +104,9 @@ TEST_F(Installed, AcceptWritesOnlyToTheWorkingDirectory) {
   const Result accepted = run("cd repository && " + device + "triptych run" + scene +
                               " && triptych accept --store s.sqlite --drop --reason new");
   EXPECT_EQ(accepted.code, 0) << accepted.output;
-  EXPECT_THAT(
-      accepted.output,
-      HasSubstr("baselines was created; all values that were not just accepted are copied from " +
-                installed.string()));
+  EXPECT_THAT(accepted.output, HasSubstr("baselines was created; all baselines that this command "
+                                         "did not accept were copied from " +
+                                         installed.string()));
   EXPECT_TRUE(tree(installed) == before);
   auto own = tree(folder.path() / "repository/baselines");
   EXPECT_EQ(own.at("volume/cost/manifest.json"), before.at("volume/cost/manifest.json"));

@@ -38,7 +38,8 @@ TEST(EmptyStore, CannotBeMergedAlone) {
   { const record::Store empty(program.folder() / "empty.sqlite", record::Store::Mode::append); }
   const Result none = program.run("merge empty.sqlite --out m.sqlite");
   EXPECT_EQ(none.code, 2);
-  EXPECT_EQ(none.output, "triptych: there is nothing to merge: no runs in empty.sqlite\n");
+  EXPECT_EQ(none.output,
+            "triptych: there is nothing to merge, because no store contains a run: empty.sqlite\n");
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "m.sqlite"));
   ASSERT_EQ(program.run(one + " --store s.sqlite").code, 0);
   EXPECT_EQ(program.run("merge empty.sqlite s.sqlite --out m.sqlite").code, 0);

@@ -81,8 +81,9 @@ class Screen {
     ImGui::PushStyleColor(ImGuiCol_Text, colours::quiet);
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(
-        "Drag an image to turn the camera. Use the mouse wheel to move closer. Hold R to show the "
-        "reference image. Right-click a pixel for commands that reproduce or explain it.");
+        "Drag on an image to turn the camera. Use the mouse wheel to move closer or farther away. "
+        "Hold R to show the reference image. Right-click a pixel for commands that reproduce or "
+        "explain it.");
     if (!copied_.empty()) {
       ImGui::Spacing();
       ImGui::TextUnformatted(("Copied: " + core::printable(copied_)).c_str());

@@ -83,10 +83,10 @@ void draw_numbers(const Session& session, std::size_t index) {
     const std::uint64_t* const first = counted_first(session, index, name);
     const bool other = first != nullptr && !judge::is_of_the_api(name) && differ(value, *first);
     row(name, other ? colours::wrong : plain, grouped(value),
-        other ? fmt::format("{} in the first column", grouped(*first)) : "");
+        other ? fmt::format("differs from the first column: {}", grouped(*first)) : "");
   }
   for (const auto& [name, value] : record.statistics) {
-    row(name, colours::quiet, grouped(value), "counted by the driver");
+    row(name, colours::quiet, grouped(value), "reported by the driver");
   }
   for (const auto& [name, value] : record.memory) {
     row(name, colours::quiet, grouped(value) + " B", "memory allocated on the device");

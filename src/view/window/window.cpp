@@ -30,9 +30,10 @@ void keep_reason(int /*code*/, const char* text) {
 [[noreturn]] void refuse(const std::string& what) {
   std::string reason = std::exchange(last_reason(), {});
   glfwTerminate();
-  throw core::IoError(fmt::format(
-      "cannot open the window: {}{}{}; `triptych view` needs a display, such as one from xvfb-run",
-      what, reason.empty() ? "" : ": ", reason));
+  throw core::IoError(
+      fmt::format("cannot open the window: {}{}{}; `triptych view` needs a display, for example "
+                  "one created by xvfb-run",
+                  what, reason.empty() ? "" : ": ", reason));
 }
 
 // Threads may call wake() even after the window has been closed.

@@ -29,7 +29,7 @@ TEST(ShownError, StatesTheShareOfTheBound) {
   EXPECT_NEAR(error.share, 0.3, 1e-6);
   EXPECT_EQ(error.beyond, 0U);
   EXPECT_TRUE(error.rings.empty());
-  EXPECT_EQ(error.headline, "at most 0.3 of the bound");
+  EXPECT_EQ(error.headline, "errors up to 0.3 times the bound");
   EXPECT_EQ(error.picture.rgb.size(), 3U * 4 * 2);
 }
 
