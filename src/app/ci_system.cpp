@@ -22,7 +22,7 @@ std::string environment_text(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// Writes control sequences that only the CI system interprets.
+// Writes control sequences for the CI system to stderr, without escaping them as say() would.
 void write_control(const std::string& text) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }

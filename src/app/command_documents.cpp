@@ -91,8 +91,8 @@ std::string manual(const CLI::App& program) {
   return text.append(environment);
 }
 
-// Returns the words to complete after a command: its options and, if it takes plans, the names of
-// the plans in the suites.
+// Returns the words that the shell offers as completions after a command: the command's options
+// and, if it takes plans, the names of all plans in the suites.
 std::string words_after(const CLI::App& command, const std::vector<std::string>& plans) {
   std::string words;
   bool takes_plans = false;

@@ -76,9 +76,9 @@ std::vector<std::string> gate_job() {
   return plans;
 }
 
-// Returns the plans to judge, as currently defined. If the user names no plans, leaves out the
-// default plans that have none of the requested checks. `--without cost` also leaves out the plans
-// that count instructions, and `--without code` the plans that only compile.
+// Returns the plans to judge, in their current definition. If the user names no plans, leaves out
+// the default plans that have none of the requested checks. `--without cost` also leaves out the
+// plans that count instructions, and `--without code` the plans that only compile.
 std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
   record::Checks asked;
   for (const std::string& name : arguments.checks) asked.insert(record::check(name));
@@ -115,8 +115,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
                                const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = judged.devices.empty() ? arguments.devices : judged.devices;
-  // Of the devices named by --require, those that only compile are required for plans with the
-  // check `code`, and all others are required for the remaining plans.
+  // A device that only compiles is required only for plans with the check `code`. Any other device
+  // that --require names is required only for the remaining plans.
   for (const std::string& glob : arguments.required) {
     const bool compiles = measure::compile_only(glob).has_value();
     if (compiles == judged.plan.compiled()) request.required_devices.push_back(glob);
@@ -129,7 +129,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   return request;
 }
 
-// Compares each device with itself under the base build or driver. The baselines are not used.
+// Compares each device with the same device under the base build or driver instead of the
+// baselines.
 core::ExitCode judge_by_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = measure::name_a_compiler(arguments.devices)

@@ -78,7 +78,7 @@ std::vector<std::string> gaps_in(const record::Store& store,
   return told;
 }
 
-// Returns the gaps of all stores, one per line.
+// Returns one line for each gap in the measurements of any of the stores.
 std::string all_gaps(const MergeArguments& arguments) {
   std::string lines;
   for (const std::string& file : arguments.stores) {

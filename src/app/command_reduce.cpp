@@ -32,8 +32,8 @@ struct ReduceArguments {
   std::string against;
   int limit_s = 0;  // 0: derived from the duration of the first frame
   int frames = 500;
-  // Accepted so that a `render` command can be reused. `reduce` always compares with the reference
-  // image.
+  // Accepted, but ignored, so that the options of a `render` command also work for `reduce`, which
+  // always compares with the reference image.
   bool truth = true;
 };
 
@@ -45,9 +45,9 @@ measure::RunOptions options_of(const ReduceArguments& arguments) {
           .program = version()};
 }
 
-// Returns the command that reproduces the failure. Wrong counters are found by comparison with a
-// second device, but `render` draws on only one device, so for wrong counters the command is
-// `reduce`.
+// Returns the command that reproduces the failure: `render`, except for wrong counters. These are
+// found by comparison with a second device, but `render` draws on only one device, so for wrong
+// counters the command is `reduce`.
 std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
                         const reduction::Failure& failure, const record::Record& record,
                         const record::Device& device) {

@@ -26,9 +26,9 @@ core::ExitCode run(const Measuring& measuring) {
   return measured && error_kept ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
-// Measures for a CTest fixture. A failed configuration fails the test, unless the plan is scored:
-// then a separate test reports the scores, which include the failure. If every configuration is
-// skipped, the test is skipped.
+// Measures plans as a CTest fixture. The test is skipped if every configuration is skipped. It
+// fails if a configuration fails, unless the plan is scored: the failures then lower the scores,
+// which a separate test reports.
 core::ExitCode run_as_test(const Measuring& measuring) {
   const auto [scored, results, error_kept] = measure_and_tell(measuring);
   const bool failed =
@@ -131,8 +131,8 @@ void add_run_commands(Commands& commands) {
           "the scene's limit image is at most E, and report the fastest levels")
       ->excludes("--untimed");
 
-  // `resume` is set, so all devices add their measurements to one run. test-start has deleted the
-  // runs of earlier tests.
+  // All devices add their measurements to one run, because `resume` is set. `test-start` has
+  // already deleted the runs of earlier tests.
   auto [test, tested] = commands.add("test-measure", "Measure one device as a CTest fixture",
                                      run_as_test, {.resume = true, .brief = true});
   add_run_options(test, tested);

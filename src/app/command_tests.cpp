@@ -1,5 +1,5 @@
-// The commands for CTest. At test time, CTest calls `ctest`, which writes the list of tests for the
-// devices of this machine. The tests run the hidden commands.
+// The commands for CTest. At test time, CTest runs `triptych ctest`, which writes the list of tests
+// for the devices of this machine. The tests run the hidden commands in this file.
 
 #include <fmt/format.h>
 

@@ -36,7 +36,7 @@ struct ValidateArguments {
   std::string baselines = default_baselines().string();
   std::string junit;
   std::string json;
-  PlanChoice choice;  // this command has no --set
+  PlanChoice choice;  // --set is not offered by this command
   int jobs = 0;       // see measure::RunOptions
   int limit_s = standard_limit_s;
   std::string expect;
@@ -71,8 +71,8 @@ Measuring measuring_of(const ValidateArguments& arguments, const std::string& fi
           .told_to = stderr};
 }
 
-// Measures the plans. Returns false if the user interrupted the run; the part that was measured is
-// judged even then.
+// Measures the plans. Returns false if the user interrupted the run; the configurations measured
+// until then are judged nevertheless.
 bool measured_to_its_end(const Measuring& measuring) {
   try {
     measure_resumably(measuring);
@@ -96,7 +96,7 @@ std::set<std::string> runs_in(const std::string& file) {
 // Judges the plans of a validation, and holds the result for each plan.
 class Validation {
  public:
-  // `before` contains the ids of runs that do not belong to this validation.
+  // `before` contains the ids of the runs that were in the store before this validation began.
   Validation(const ValidateArguments& arguments, const std::string& file,
              const std::set<std::string>& before, std::optional<std::vector<judge::Waiver>> known)
       : arguments_(arguments),
@@ -124,7 +124,8 @@ class Validation {
       const measure::Plan plan = arguments_.choice.load(result.plan, registry_.find_suite());
       auto [second, flakes] = judge::tell_flakes(result, judge_plan(plan), places);
       result = std::move(second);
-      for (const record::Record& each : first) {  // keep the failed records in the store
+      // Keep the failed records of flaky configurations in the store.
+      for (const record::Record& each : first) {
         if (flakes.contains({each.device, each.configuration})) store_.add_record(each);
       }
     }
@@ -194,8 +195,8 @@ class Validation {
   }
 
  private:
-  // Returns the largest bound in the image, or 0 if there is no reference image, for example
-  // because the data file is now missing.
+  // Returns the largest error bound of any pixel of the image, or 0 if there is no reference image,
+  // for example because the data file is now missing.
   [[nodiscard]] double bound_of(const record::Record& record) {
     try {
       return report::largest_bound(truths_.of(record).bound);
@@ -204,8 +205,8 @@ class Validation {
     }
   }
 
-  // Returns the records whose image was judged with a bound larger than one 8-bit step of a colour
-  // channel.
+  // Returns the records whose image was judged with an error bound larger than one 8-bit step of a
+  // colour channel.
   [[nodiscard]] std::vector<report::WideBound> wide_bounds(
       const std::vector<record::Record>& records) {
     std::vector<report::WideBound> bounds;
@@ -259,8 +260,8 @@ class Validation {
   std::vector<judge::GateResult> results_;
 };
 
-// Measures everything again until the requested number of repetitions is reached or the user
-// interrupts. An interrupted repetition is left out.
+// Repeats the whole measurement until the requested number of repetitions is reached or the user
+// interrupts it. The interrupted repetition is discarded.
 std::vector<judge::Repetition> repeat(const ValidateArguments& arguments, const std::string& file,
                                       const std::optional<std::vector<judge::Waiver>>& known,
                                       const Validation& first) {
@@ -278,7 +279,8 @@ std::vector<judge::Repetition> repeat(const ValidateArguments& arguments, const 
   return repetitions;
 }
 
-// Compares the repetitions, and prints and writes one line per case.
+// Compares the repetitions. Prints the result and writes it to repeats.jsonl, with one line per
+// case.
 void tell_repeats(const ValidateArguments& arguments,
                   const std::vector<judge::Repetition>& repetitions, Validation& first) {
   const std::vector<judge::RepeatedCase> cases = judge::repeated_cases(repetitions);

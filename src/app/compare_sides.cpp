@@ -81,7 +81,7 @@ class Comparer {
         store_(store.empty() ? (folder_.emplace().path() / "compared.sqlite").string() : store,
                record::Store::Mode::append),
         truths_(registry.find_suite(), store_) {
-    store_.require_whole();  // because reference images are read from it
+    store_.require_whole();  // reference images are read from the store
   }
 
   [[nodiscard]] Told compare(const Comparing& comparing, const std::string& typed,
@@ -164,7 +164,8 @@ std::vector<std::string> worker_of(const std::string& option, const std::string&
         fmt::format("{} {}: this file is not an executable program", option, program));
   }
   const std::string file = fs::absolute(program).string();
-  // A driver may have printed something before the version.
+  // The version need not be at the beginning of the output, because a driver may have printed
+  // something before it.
   const std::string told = measure::output_of({file, "--version"}).value_or("");
   if (("\n" + told).find("\ntriptych ") == std::string::npos) {
     throw core::InputError(fmt::format(

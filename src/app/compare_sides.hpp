@@ -38,8 +38,8 @@ struct Comparing {
 [[nodiscard]] std::vector<std::string> worker_of(const std::string& option,
                                                  const std::string& program);
 
-// Returns comparisons of each device with itself under `base`. `base` is the program of another
-// build, or "NAME=VALUE,…".
+// Returns the comparisons of each device with the same device under `base`, which is the path of
+// another build or "NAME=VALUE,…".
 [[nodiscard]] std::vector<Comparing> against_base(const std::string& base,
                                                   const std::vector<std::string>& devices);
 

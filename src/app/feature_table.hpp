@@ -23,7 +23,8 @@ using FeatureTable = std::map<std::string, std::vector<measure::FeatureRow>>;
 [[nodiscard]] std::string feature_text(const FeatureTable& table);
 [[nodiscard]] core::Json feature_json(const FeatureTable& table);
 
-// Returns regression if any probe is wrong, and cannot_judge if no probe is right.
+// Returns regression if any probe returned wrong results, and cannot_judge if no probe returned
+// correct results.
 [[nodiscard]] core::ExitCode verdict_of(const FeatureTable& table);
 
 }  // namespace triptych::app

@@ -1,5 +1,5 @@
 #pragma once
-// Measures plans, for all commands that measure.
+// Measures plans. All commands that measure use these functions.
 
 #include <cstdint>
 #include <cstdio>

@@ -16,10 +16,10 @@ struct FrameArguments {
   std::string out = {};
   std::vector<std::string> faults = {};
 
-  bool chooses = false;    // the level "auto" is allowed; it stands for several techniques
-  bool describes = false;  // --device is optional, because describing the data needs no device
+  bool chooses = false;    // whether the level "auto" (several techniques) is allowed
+  bool describes = false;  // whether --device is optional, because data can be described without it
 
-  void add_to(CLI::App& command);  // all options except --out
+  void add_to(CLI::App& command);  // adds all options except --out
 };
 
 struct OneFrame {

@@ -21,8 +21,8 @@ struct Registry {
   [[nodiscard]] measure::SuiteWithTruth& suite(std::string_view name) const;
   [[nodiscard]] const measure::Backend& backend(std::string_view api) const;
   [[nodiscard]] measure::FindSuiteWithTruth find_suite() const;
-  // Lists the devices of this machine. With globs, only the APIs that may have a matching device
-  // are opened, because opening the drivers of an API takes about a quarter of a second.
+  // Lists the devices of this machine. If globs are given, opens only the APIs that may have a
+  // matching device, because opening the drivers of an API takes about a quarter of a second.
   [[nodiscard]] measure::Listing devices(const std::vector<std::string>& globs) const;
   // Lists the same devices as devices(), and the devices that only compile
   // (measure::list_compilers).

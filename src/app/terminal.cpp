@@ -36,7 +36,7 @@ std::size_t columns() {
 void show_line(std::string_view text) {
   if (!watched()) return say("{}\n", text);
   clear_line();
-  // The line is cut, because clear_line() cannot erase a line that wraps.
+  // The line is truncated, because clear_line() cannot erase a line that wraps.
   const std::size_t room = columns();
   say("{}", core::printable(text, room > 1 ? room - 1 : 1));
 }

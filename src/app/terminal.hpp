@@ -64,8 +64,8 @@ inline void put_lines(std::string_view text, std::FILE* to = stdout) {
 // On a terminal, erases the progress line that show_line() has printed.
 void clear_line();
 
-// Shows progress. On a terminal this is one line, cut to the terminal's width, that is overwritten
-// each time. Elsewhere, each call prints a line.
+// Shows progress. On a terminal, this is a single line, truncated to the terminal's width, which
+// each call overwrites. If stderr is not a terminal, each call prints a new line.
 void show_line(std::string_view text);
 template <typename... Args>
 void show(fmt::format_string<Args...> format, Args&&... args) {

@@ -39,13 +39,13 @@ void require_store(const std::filesystem::path& file);
 // Returns a request to judge a plan on all devices with all of the plan's checks, with the
 // reference images in `truths` and with today's date.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const std::string& plan);
-// Returns the same request for the current version of a plan, including its configurations.
+// Like the overload above, but for the plan as it is currently defined, including the
+// configurations that the run should contain.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan,
                                             const measure::Suite& suite);
 
-// Turns each finding that could not be judged into a skip if the only reason is a missing data
-// file. This is for machines on which data files are missing on purpose. A device failure is never
-// excused.
+// Changes each cannot_judge finding to a skip if a missing data file is its only cause. This is for
+// machines on which data files are missing on purpose. A device failure is never excused.
 void excuse_absent_data(const record::Store& store, judge::GateResult& result);
 
 // The files to which a verdict is written. A file whose name is empty is not written.

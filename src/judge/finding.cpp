@@ -197,7 +197,8 @@ std::string kind_of(const Observation& what) {
   }
   const bool alone = what.changes.size() == 1;
   for (const Change& each : what.changes) {
-    if (each.unit == Unit::misses && !alone) continue;  // more code also causes more misses
+    // Left out, because an increase in misses is often only a consequence of the other changes.
+    if (each.unit == Unit::misses && !alone) continue;
     kind += " " + each.name;
   }
   if (what.cause == Cause::device_fault) kind += " " + what.fact("kind");

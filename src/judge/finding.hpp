@@ -54,7 +54,7 @@ enum class Cause : std::uint8_t {
   no_required_device,  // no measured device matches a required glob [<glob>, detail, reason]
   device_missing,      // <sibling> is present, but a device accepted on the same machine is not
   listing_failed,      // a process crashed or hung during device enumeration [<what>, reason]
-  no_description,      // the run has records but no description of a device [<run>]
+  no_description,      // the run has records of a device that it does not describe [<run>]
   checks_lost,         // the baselines contain checks that the plan no longer requests [names]
   missing,             // configurations have no record [names; "wanted": number required; <kind>]
   extra,               // the run has configurations that are not in the plan [names]

@@ -6,8 +6,8 @@
 
 namespace triptych::judge {
 
-// Converts the result of comparing `image` with `expected`. The cause is Cause::within_bound if the
-// image is correct.
+// Converts `comparison`, the result of comparing `image` with `expected`, to an Observation. Its
+// cause is Cause::within_bound if the image is correct.
 [[nodiscard]] Observation image_observation(const accuracy::ImageComparison& comparison,
                                             const core::Image& image, const core::Image& expected,
                                             Against against);

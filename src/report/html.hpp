@@ -102,8 +102,9 @@ using Rows = std::vector<TableRow>;
 [[nodiscard]] Html embedded_markup(std::string_view file);
 [[nodiscard]] std::string embedded_sha256(std::string_view file);
 
-// Returns the page with the bytes of each image only once. A repeated image has the attribute
-// `data-same` instead of `src`: the index of its first occurrence among all `img` elements.
+// Returns the page with the bytes of each distinct image only once. A repeated image has the
+// attribute `data-same` instead of `src`: the index of its first occurrence among all `img`
+// elements.
 [[nodiscard]] Html without_repeated_pictures(const Html& page);
 
 // Returns a table. The first row is its header. Columns of quantities get the CSS class "number",

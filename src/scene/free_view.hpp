@@ -28,9 +28,9 @@ struct FreeView {
 // it is less than 1). Angles and distance are brought into their valid ranges.
 [[nodiscard]] std::string camera_of(const FreeView& view);
 
-// Returns the free view closest to a given camera around a cube. Mouse control starts from this
-// view. It has the camera's direction and distance, but not its roll or target. Throws the same
-// exceptions as camera_at().
+// Returns the free view that is closest to the given camera, for a scene that fills a cube. Mouse
+// control starts from this view. It has the camera's direction and distance, but not its roll or
+// target. Throws the same exceptions as camera_at().
 [[nodiscard]] FreeView free_view_near(std::string_view camera);
 
 // Returns the view after a mouse drag. `right` and `down` are fractions of the image height. The

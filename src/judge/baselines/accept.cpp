@@ -33,8 +33,8 @@ void update_image(const record::Record& record, const core::Image& reference, Ne
   next.files[name] = std::move(bytes);
 }
 
-// Images are large, so they are stored only for plans that check images and times, whose reports
-// show them.
+// Images are large, so they are stored only for plans that check both images and times. Reports
+// show stored images only for such plans.
 void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
   const bool keeps =
       accepted.checks.contains(Check::image) && accepted.checks.contains(Check::timing);
@@ -47,8 +47,8 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
       if (keeps) update_image(record, reference, next);
-      // Data have a different hash in each voxel format. The hashes for the formats of other
-      // devices stay valid as long as the reference image does not change.
+      // The content hash of the data depends on the voxel format. The hashes for the voxel formats
+      // of other devices stay valid as long as the reference image does not change.
       Json& entry = table[record.scene];
       const Json hash = reference_hash(reference);
       if (!entry.is_object() || entry.value("reference", Json()) != hash) {

@@ -22,8 +22,8 @@ struct Accepted {
   // may support the feature.
   std::vector<record::Record> unsupported;
   std::map<std::string, record::Device> devices;  // by id
-  // Whether the run replaces everything that is stored. Only then are the next two members used:
-  // the configurations and scenes for which the run has a record.
+  // Whether the run replaces everything that is stored. The next two members are used only in this
+  // case. They contain the configurations and scenes for which the run has a record.
   bool replaces_all = false;
   std::set<std::string> configurations;
   std::set<std::string> scenes;

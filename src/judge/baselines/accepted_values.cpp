@@ -94,7 +94,7 @@ void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& 
   }
 }
 
-// Writes the error of each record against the limit image of its scene.
+// Writes the error of each record's image against the limit image of its scene.
 void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
@@ -123,8 +123,8 @@ void update_scores(const record::Store& store, const Accepted& accepted,
   }
 }
 
-// Removes the counts that differ from one process run to the next. The gate shows these counts, but
-// they are not stored.
+// Removes the counts that are not stored, because they differ between two processes of the same
+// program. The gate only shows these counts.
 record::Counts kept_of(record::Counts cost) {
   cost.erase("libc");
   cost.erase("program");
@@ -182,8 +182,8 @@ void update_code(const Accepted& accepted, const record::Device& device, NextFol
   if (any) update.write(4);
 }
 
-// Writes the pipeline statistics. An untimed run may not have read any; in this case, the stored
-// values are kept.
+// Writes the pipeline statistics. If an untimed run did not read the statistics of a configuration,
+// keeps the stored values.
 void update_statistics(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::statistics(device));
   update.object()["device"] = device.statistics_key();

@@ -61,7 +61,8 @@ ByName<Value> read_device_table(const std::filesystem::path& path, std::string_v
 [[nodiscard]] DriverCode read_code(const core::JsonNode& node);
 [[nodiscard]] StoredTiming read_timing(const core::JsonNode& node);
 
-// Returns the JSON files in a folder, by their names without the extension.
+// Returns the paths of the JSON files in a folder. The keys are the file names without the
+// extension.
 [[nodiscard]] std::map<std::string, std::filesystem::path> files_in(
     const std::filesystem::path& folder);
 // Describes the first file that does not match the manifest. Returns "" if all files match.

@@ -121,7 +121,8 @@ const std::string& Baselines::problem() const {
     try {
       if (problem.empty()) problem = contradiction_in(folder_, manifest());
     } catch (const core::InputError&) {
-      // The check that reads the file reports an invalid value together with its line.
+      // Ignored here. The check that reads the file reports the invalid value together with its
+      // line.
     }
   }
   cache_->problem = std::move(problem);
@@ -180,7 +181,7 @@ std::map<std::string, StoredError> Baselines::errors(const std::string& configur
 }
 
 std::map<std::string, std::uint64_t> Baselines::scores(const std::string& configuration) const {
-  // The table has the same form as a table of counters: names and integers.
+  // read_counts can be used, because the scores have the same form as counters: {name: integer}.
   return find_optional(cache_->table(cache_->scores, Layout::scores, read_counts), configuration)
       .value_or(record::Counts{});
 }

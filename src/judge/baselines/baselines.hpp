@@ -174,10 +174,10 @@ class Baselines {
 };
 
 // Returns the spread of ln t over the frames of one run: 1.4826 times the median absolute
-// deviation, which is σ for a normal distribution. The result is at least one step of the clock. It
-// is also at least 0.5 %, because the medians of two undisturbed process runs of the same program
-// differ by that much (docs/how-we-measure.md). The frames of a single process cannot show this
-// difference.
+// deviation, which equals σ for a normal distribution. The result is at least one step of the
+// clock. It is also at least 0.5 %, because the medians of two processes that run the same program
+// undisturbed differ by that much (docs/how-we-measure.md), and the frames of a single process
+// cannot show this difference.
 [[nodiscard]] double log_spread(std::vector<double> times_ns);
 
 // Returns the checks of the run's plan. If the run does not store them, returns the checks that

@@ -22,7 +22,7 @@ inline constexpr std::array<std::string_view, 2> cost_parts{"device_code", "driv
 struct FrameChange {
   bool more = false;            // the count of some part increased by more than its tolerance
   bool less = false;            // the count of some part decreased by more than its tolerance
-  std::vector<Change> changes;  // of these parts and, if any of them changed, of the allocations
+  std::vector<Change> changes;  // changed parts and, if there are any, changed allocations
 };
 
 // Compares the counts of `now` with the counts `before`, with the tolerances of cost_tolerance.hpp.

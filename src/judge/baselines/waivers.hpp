@@ -1,6 +1,6 @@
 #pragma once
 // Lists of known failures. baselines/waivers.json is written by hand, and its entries have expiry
-// dates. `validate` writes a file of expectations, in which each entry is about one configuration.
+// dates. A file of expectations is written by `validate`, with one configuration per entry.
 
 #include <cstdint>
 #include <filesystem>

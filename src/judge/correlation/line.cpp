@@ -123,8 +123,8 @@ OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
   return result;
 }
 
-// Returns the level with the most significant effect, and its q. The effect is 0 if there is no
-// level.
+// Returns the level with the most significant effect, together with the q-value of that effect. If
+// there is no level, the effect is 0.
 OffTheLine clearest_level(const Values& x, const estimation::RobustLine& fit,
                           std::span<const FactorLevel> levels) {
   OffTheLine best;

@@ -20,8 +20,8 @@ struct LineModel {
   static constexpr double least_slope = 0.7;
   static constexpr double largest_slope = 1.3;
   static constexpr double largest_scale = 0.25;
-  // The smallest scatter that is assumed about a line, because costs are reproducible only to
-  // within this share.
+  // The scatter about a line is assumed to be at least this share of the cost, because costs are
+  // not reproducible more exactly than that.
   static constexpr double least_scale = 5e-4;
   // Conditions under which a level or a configuration is reported.
   // The expected share of false findings (Benjamini and Hochberg). It applies to levels and to
@@ -39,8 +39,8 @@ struct LineModel {
 };
 
 // Fits a line to the points, which are logarithms of costs: points[i].y = a + b·points[i].x. Sets
-// the line and the residuals. The Theil-Sen line and a few other lines are starting points, which
-// an MM-estimate refines (estimation/regression.hpp).
+// the line and the residuals. An MM-estimator refines the Theil-Sen line and a few other starting
+// lines (estimation/regression.hpp).
 void fit_line(CorrelationPair& pair);
 
 struct OffTheLine {

@@ -11,8 +11,8 @@
 namespace triptych::judge {
 namespace {
 
-// The share of a level's configurations that must have moved in the same direction for the level to
-// be named.
+// A level is named only if the costs of at least this share of its configurations changed in the
+// same direction.
 constexpr double least_share_moved = 0.75;
 constexpr std::size_t least_level = 2;
 
@@ -74,7 +74,7 @@ class Explanation {
   }
 
   // Returns the mean change of the level minus the mean change of all other configurations. Returns
-  // nullopt if too few configurations of the level moved in this direction.
+  // nullopt if too few configurations of the level changed in the direction of this difference.
   [[nodiscard]] std::optional<double> effect_of(const FactorLevel& level) const {
     const double effect = mean_of(left_, level.inside) - mean_of(left_, level.outside);
     const auto along = std::ranges::count_if(
@@ -84,8 +84,9 @@ class Explanation {
     return effect;
   }
 
-  // Adds the level that explains most of the remaining sum of squares. Returns false if there is no
-  // such level or if it explains no configuration, which ends the search.
+  // Adds the level that explains most of the remaining sum of squares. Returns false, which ends
+  // the search, if there is no such level or if the level does not fully explain any further
+  // configuration.
   bool find_level() {
     const FactorLevel* best = nullptr;
     double most = 0;

@@ -63,11 +63,11 @@ struct Movement {
 };
 
 // Describes the changes of all configurations with as few movements as possible. `moved` contains
-// the result of moved_by() for each configuration. Returns a movement of everything, if all
-// configurations changed in the same direction, followed by the levels that explain most of the
-// changes, and by the remaining configurations, the largest change first. A configuration that
-// another movement already covers is returned only if it changed by more than twice as much or in
-// the opposite direction.
+// the result of moved_by() for each configuration. The result begins with a movement of everything
+// if all configurations changed in the same direction. Then follow the levels that explain most of
+// the changes and, finally, single configurations, the largest change first. A configuration that
+// another movement already covers is returned only if it changed by more than twice as much as that
+// movement, or in the opposite direction.
 [[nodiscard]] std::vector<Movement> explain(std::span<const double> moved,
                                             std::span<const Factors> factors);
 

@@ -59,7 +59,8 @@ Finding judge_error(const RunView& view, const record::Record& record,
   return finding;
 }
 
-// Fits the order of convergence to the accepted errors of a family, because only errors are stored.
+// Fits the order of convergence to the accepted errors of a family of configurations. The order is
+// fitted again each time, because only the errors are stored.
 std::optional<accuracy::Order> stored_order(const RunView& view,
                                             const accuracy::AccuracyScene& scene,
                                             const accuracy::AccuracyFamily& family) {

@@ -21,8 +21,8 @@ Finding about_device(const DeviceCost& device, Verdict verdict, Observation what
 
 // --- Accepted devices: their residuals are compared with the stored residuals --------------------
 
-// The configurations of a device that were compared with at least one other device, and how much
-// the cost of each changed.
+// The configurations of one device that were also measured on at least one other device, and how
+// much the cost of each configuration changed.
 struct Moved {
   const DeviceCost* device = nullptr;
   std::vector<const record::Record*> records;
@@ -39,8 +39,9 @@ CostChange change_of(const ConfigurationCost& cost) {
   return change_of(*cost.stored, cost.now);
 }
 
-// Returns the accepted devices whose instructions were counted by the same emulator: the devices in
-// the run or, if there are none, the devices that are only stored.
+// Returns the accepted devices whose instructions were counted by the same emulator as those of
+// `device`: the devices in the run or, if there are none, the devices that only the baselines
+// contain.
 std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
                                            const std::vector<DeviceCost>& devices) {
   std::vector<const DeviceCost*> here;

@@ -70,9 +70,9 @@ class DeviceCostCheck {
         finding_about(view_, device_, Check::cost, verdict, std::move(what), std::move(advice)));
   }
 
-  // If the instructions of any record were counted by a different emulator than the instructions of
-  // `counted`, returns the different emulator. This happens in runs that were resumed, or merged
-  // from shards.
+  // Returns the name of another emulator if it counted the instructions of some of the records, or
+  // nullopt if all records were counted by the same emulator as `counted`. The emulators can differ
+  // in runs that were resumed, or merged from shards.
   [[nodiscard]] std::optional<std::string> counted_otherwise(const record::Record& counted) const {
     for (const record::Record* record : records_) {
       if (record->cost.empty() || record->counted_by == counted.counted_by) continue;
@@ -81,8 +81,8 @@ class DeviceCostCheck {
     return std::nullopt;
   }
 
-  // Compares with stored counts that are not directly comparable: counts of another version of this
-  // driver, or counts from another emulator.
+  // Compares with stored counts that are not directly comparable, because they come from another
+  // version of this driver or from another emulator.
   void tell_other(const record::Record& counted, std::vector<Finding>& findings) const {
     const DriverCost* other = stored_;
     for (const auto& [driver, cost] : view_.baselines.cost_of_all_drivers()) {

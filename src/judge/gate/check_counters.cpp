@@ -77,7 +77,7 @@ void compare_with_others(const std::string& name, const Range& range, const reco
 }
 
 // Compares one counter. On a driver version that was accepted, the value must equal the accepted
-// value. A counter that was accepted on this device must be reported again.
+// value. On every driver version, a counter that was accepted on this device must not be missing.
 void compare_counter(const std::string& name, const std::map<std::string, std::uint64_t>& stored,
                      const record::Record& record, bool known_driver, OpenCounts& open,
                      Differences& out) {

@@ -13,8 +13,8 @@
 namespace triptych::judge {
 namespace {
 
-// The tolerance between two renderings of the same reference image. They differ only by rounding to
-// float.
+// The largest allowed difference between two renderings of the same reference image, which differ
+// only because their values are rounded to float.
 constexpr double truth_tolerance = 1e-5;
 
 // A correct image of one device, for the comparison with the images of other devices.

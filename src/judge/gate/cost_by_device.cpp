@@ -21,7 +21,7 @@ std::optional<FrameCost> frame_cost(const record::Counts& counts) {
 }
 
 // Returns whether the record was measured itself, not copied from an equivalent configuration.
-// Copies are left out, because the same frames would be counted several times.
+// Copies are left out, because otherwise the same frames would be counted several times.
 bool stands_for_itself(const record::Record& record) {
   return record.same_as.empty();
 }

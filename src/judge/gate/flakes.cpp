@@ -31,8 +31,9 @@ std::optional<Known> expected_as(const Finding& finding) {
   return known ? std::optional(finding.excuse.known) : std::nullopt;
 }
 
-// Returns the finding after a second attempt that passed. The finding becomes a flake. Only a
-// timeout gets no verdict, because the driver may just be slow.
+// Returns the finding about a regression that did not recur in the second attempt. It becomes a
+// flake. A timeout, however, becomes a finding that cannot be judged, because the driver may just
+// be slow.
 Finding right_again(const Finding& finding) {
   Finding again = finding;
   again.drawn_again = Again::flake;
@@ -44,9 +45,9 @@ Finding right_again(const Finding& finding) {
   return again;
 }
 
-// Merges a regression with the result of the second attempt. If the check has no finding for this
-// place now, the second attempt passed: a technique without a meaningful image, such as
-// speed_of_light, has a finding only if drawing fails.
+// Merges a regression with the result of the second attempt. If the second attempt has no finding
+// of this check for the configuration, it passed. This is the case for a technique without a
+// meaningful image, such as speed_of_light, which has a finding only if drawing fails.
 void tell_again(const Finding& finding, Redrawn& redrawn) {
   std::vector<Finding>& findings = redrawn.result.findings;
   const auto again = std::ranges::find_if(findings, [&](const Finding& each) {

@@ -19,8 +19,8 @@ using Places = std::set<std::pair<std::string, std::string>>;  // device, config
 [[nodiscard]] Places failing(const GateResult& result);
 
 struct Redrawn {
-  // The result of the second attempt. A failure that passed in the second attempt is still a
-  // regression (a flake). A timeout that passed in the second attempt has no verdict.
+  // The result of the second attempt. A failure that did not recur in the second attempt is still a
+  // regression, marked as a flake. A timeout that did not recur cannot be judged.
   GateResult result;
   Places flakes;
 };

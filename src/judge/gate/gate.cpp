@@ -274,8 +274,8 @@ void judge_images(Judging& all) {
   all.wrong = std::move(images.wrong);
 }
 
-// One row for each check except `image`, in the order in which they run. A test compares the checks
-// with record::every_check.
+// One row for each check except `image`, in the order in which the checks run. A test requires that
+// this table and record::every_check contain the same checks.
 struct CheckRow {
   Check check;
   bool against_baselines;  // whether the check needs baselines
@@ -338,8 +338,8 @@ int rank(Verdict verdict) {
   return 6;
 }
 
-// Names the programs that measured the run, if one of them is not the program that judges it. A run
-// that was resumed may have been measured by several programs.
+// Returns the versions of the programs that measured the run, if one of them is not the program
+// that judges it. A run that was resumed may have been measured by several programs.
 std::string other_programs(const RunView& view) {
   std::set<std::string> programs;
   for (const record::Beginning& each : view.run.begun) programs.insert(each.program);

@@ -97,8 +97,8 @@ struct GateRequest {
   // Whether `expected` is only a part of the plan, so that accepted configurations outside this
   // part do not count as missing.
   bool part = false;
-  // The known failures and skips. Every other configuration has to pass; a skip that is not listed
-  // cannot be judged. nullopt means that there is no such list and any configuration may be
+  // The known failures and skips. A configuration that is not in this list must pass; if it is
+  // skipped, it cannot be judged. nullopt means that there is no list, so any configuration may be
   // skipped.
   std::optional<std::vector<Waiver>> known = {};
   // Returns the current content hash of the data from which the record's reference image is drawn,

@@ -17,8 +17,8 @@ class StressRun {
  public:
   StressRun(const record::Store& store, const std::vector<record::Record>& records);
 
-  // Returns the record of the same device whose factor levels differ from those of `record` by
-  // `changed`, or nullptr if the run has no such record.
+  // Returns the record of the same device that has the levels in `changed`, and otherwise the same
+  // levels as `record`. Returns nullptr if the run has no such record.
   [[nodiscard]] const record::Record* other(const record::Record& record,
                                             const record::Changed& changed) const;
   // Returns the image of a record, or nullptr if the record has no image or the image cannot be
@@ -39,8 +39,9 @@ class StressRun {
 [[nodiscard]] bool has_other(const record::Expectation& expectation, const record::Record& record,
                              const StressRun& run);
 
-// Returns nullopt if the record meets the expectation, otherwise an observation that states how it
-// fails. The record must have an image. The expectation MayBeRefused is always met.
+// Returns nullopt if the record meets the expectation, otherwise an observation that states why the
+// expectation is not met. The record must have an image. The expectation MayBeRefused is always
+// met.
 [[nodiscard]] std::optional<Observation> unmet(const record::Expectation& expectation,
                                                const record::Record& record, StressRun& run,
                                                const FindTruth& truth);

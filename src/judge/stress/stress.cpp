@@ -56,8 +56,8 @@ class Scoring {
     return truths_.expectations ? truths_.expectations(record) : std::vector<record::Expectation>{};
   }
 
-  // Scores a case, except for its agreement with other devices. Returns nullopt for a case that is
-  // not scored, because the device does not support it.
+  // Scores a case, except for the point for agreement with other devices. Returns nullopt for a
+  // case that is not scored, because the device does not support it.
   std::optional<Case> first_points(const record::Record& record) {
     Case result{&record};
     StressScore& score = result.score;

@@ -110,8 +110,8 @@ struct VolumeKind {
   }
 };
 
-// Properties of the device's rasterizer that the API leaves open but that determine which fragments
-// a primitive covers.
+// Properties of the device's rasterizer that the API leaves to the implementation, but that
+// determine which fragments a primitive covers.
 struct Rasterizer {
   int sub_pixel_bits = 8;  // vertices are snapped to a grid of 2⁻ᵇ pixels, where b is this number
   // The number of pixels by which Triptych makes points larger than their sprites, because a driver

@@ -19,7 +19,8 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 [[nodiscard]] Factor number(std::string name, double minimum, double maximum, std::string standard,
                             Decides decides, std::string summary,
                             std::vector<std::string> words = {});
-// Returns a factor that determines the image and whose values are checked by Suite::check().
+// Creates a factor whose values are strings that Suite::check() checks. The factor determines the
+// image.
 [[nodiscard]] Factor text(std::string name, std::string standard, std::string summary);
 
 // Returns the factor `technique` of a suite. Its levels are the suite's techniques, in the order of

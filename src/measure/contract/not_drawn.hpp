@@ -14,8 +14,8 @@ class NotDrawn : public core::Error {
   using core::Error::Error;
 };
 
-// Thrown if the driver did not provide a frame's pipeline statistics although Triptych requested
-// them with a wait. All other results of the frame may be correct.
+// Thrown if the driver did not provide a frame's pipeline statistics, although Triptych asked it to
+// wait until they are available. All other results of the frame may be correct.
 class StatisticsNotReady : public core::ApiError {
  public:
   using ApiError::ApiError;

@@ -25,8 +25,8 @@ std::string short_version(std::string_view text) {
   return std::string(text.substr(0, text.find_first_not_of("0123456789", text.find('.') + 1)));
 }
 
-// Valgrind simulates an AVX2 processor if the machine has AVX2, and an SSE processor otherwise.
-// Other features of the machine do not matter.
+// Valgrind simulates a CPU with AVX2 if the machine has AVX2, and a CPU with only SSE otherwise. No
+// other feature of the machine changes the simulated CPU.
 std::string_view processor_name() {
   return cpu_features().find("avx2") != std::string::npos ? "AVX2" : "SSE";
 }

@@ -18,7 +18,8 @@ struct Plan {
   std::string name;  // "volume/quick", or the file's name without its extension
   std::string suite;
   std::string summary;  // one line
-  // Ordered so that the data set changes least often, then the pipeline, and the view most often.
+  // Sorted so that the data set changes least often, the pipeline more often, and the viewport and
+  // the camera most often.
   std::vector<Configuration> configurations;
   std::vector<std::string> varied;  // factors with more than one value
   // The checks by which the plan's runs are judged. Only the measurements needed for these checks

@@ -11,8 +11,8 @@
 namespace triptych::measure {
 namespace {
 
-// Returns the rank of a factor by the time that a change of its level takes, where 0 is the
-// slowest: 0 for loading data (which includes mapping its values), 1 for building a pipeline, 2 for
+// Returns the rank of a factor by the time that a change of its level takes. Rank 0, the slowest,
+// is for loading data (which includes mapping its values), 1 for building a pipeline, 2 for
 // resizing the viewport, and 3 for moving the camera.
 int speed_of(const Factor& factor) {
   if (factor.name == "data" || factor.name == "window" || factor.name == "mapping") return 0;

@@ -1,6 +1,6 @@
 #pragma once
-// Measures one configuration. This code does not depend on an API. It is tested with the scripted
-// clock of the null backend.
+// Measures one configuration. This code does not depend on an API. It is tested with the null
+// backend, whose clock returns predefined times.
 
 #include <cstdint>
 #include <optional>

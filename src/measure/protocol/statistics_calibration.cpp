@@ -197,8 +197,8 @@ std::string text_of(const std::optional<std::uint64_t>& count) {
   return count ? fmt::format("{}", *count) : "nothing";
 }
 
-// Returns the name of the counter of Triptych that equals the statistic in every scene, or an empty
-// string if there is none.
+// Returns the name of Triptych's counter that equals the statistic in every scene, or an empty
+// string if there is no such counter.
 std::string counted_by_us(const std::vector<CalibrationReading>& readings) {
   for (const auto& [name, value] : readings.front().ours) {
     const bool same = std::ranges::all_of(readings, [&](const CalibrationReading& each) {
@@ -297,15 +297,16 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                            .subject = std::string(technique::name_of(kind)),
                            .detail = error.what()});
       }
-      // If the device has another problem, the configurations will reveal it.
+      // No device fault is added for other errors: if the cause is a problem of the device, the
+      // configurations will reveal it.
       for (const auto& [name, value] : scene.expected) {
         unknown.emplace(name, record::StatisticWorth{
                                   .worth = record::Worth::unknown,
                                   .detail = fmt::format("{} ({})", error.what(), scene.name)});
       }
     }
-    // A device that reports nothing for the first scene, as under OpenCL, also reports nothing for
-    // all other scenes.
+    // A device that reports no statistics for the first scene, such as an OpenCL device, reports
+    // none for all other scenes, either.
     if (readings.empty() && unknown.empty()) break;
   }
   Calibration calibration;

@@ -40,8 +40,8 @@ std::vector<std::string> levels_of(const Suite& suite, std::string_view name) {
   return levels;
 }
 
-// Returns the name of a scene, "camera=…,data=…". It contains the factors that the request does not
-// choose.
+// Returns the name of a scene, "camera=…,data=…", which contains only factors whose levels the
+// request does not choose.
 std::string scene_of(const Suite& suite, Configuration configuration) {
   for (const char* name : chosen_factors) configuration[name] = factor_of(suite, name).standard;
   return configuration_key(suite, configuration);
@@ -110,7 +110,7 @@ class Search {
   }
 
  private:
-  // A step, its error, and the size of the image that was used to compute the error.
+  // A step size, its error, and the size of the image that was used to compute the error.
   struct Found {
     double step = 0;
     double error = 0;
@@ -138,8 +138,8 @@ class Search {
     limit_of_few_pixels_ = suite_.limit(coarse).image;
   }
 
-  // Returns the longest step for the candidate's quadrature. It is first estimated from an image of
-  // few pixels, and then checked with the complete image.
+  // Returns the longest step for the candidate's quadrature. The step is first estimated with a
+  // small image, and then checked with the complete image.
   [[nodiscard]] Found longest_step(Configuration candidate, const core::Image& limit) {
     const std::string viewport = std::exchange(candidate["viewport"], few_pixels_);
     accuracy::StepLimits limits = limits_;
@@ -150,8 +150,9 @@ class Search {
       candidate["step"] = text_of_step(step);
       return error(limit_of_few_pixels_, suite_.truth(candidate, {}).truth);
     });
-    // An error computed from few pixels is only an estimate. However, if it exceeds the requested
-    // error by this factor, the error of the complete image exceeds the requested error, too.
+    // An error computed from a small image is only an estimate. However, if it exceeds the
+    // requested error by this factor, the error of the complete image also exceeds the requested
+    // error.
     constexpr double far = 4;
     if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};
     candidate["viewport"] = viewport;
@@ -171,7 +172,8 @@ class Search {
       candidate["skip"] = skip;
       plan.configurations.push_back(candidate);
     }
-    // All other quadratures have no samples that could be merged, and only one skipping mode.
+    // The remaining candidates merge samples, which only the quadrature `midpoint` allows. All
+    // other quadratures have only one skipping mode.
     if (candidate.at("quadrature") != "midpoint") return;
     const double merged = rounded_down(accuracy::merging_share * request_.error);
     candidate["skip"] = "bricks";

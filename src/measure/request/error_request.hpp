@@ -28,8 +28,8 @@ struct ErrorRequest {
 // for merging samples. The step of a candidate is the longest step with which the error of the
 // reference image, computed at the candidate's sample positions, stays within the share for the
 // step size. If samples can be merged, there is one more candidate, which merges them. The step is
-// estimated with an image of few pixels (accuracy::search_size()), and then shortened until the
-// error of the complete image stays within the share.
+// estimated with a small image (accuracy::search_size()), and then shortened until the error of the
+// complete image stays within the share.
 //
 // Throws InputError for a suite without these factors.
 [[nodiscard]] ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite,

@@ -66,7 +66,7 @@ struct RunResult {
   int taken_over = 0;
   int skipped = 0;
   int failed = 0;        // failed, crashed, hung or lost
-  int there_before = 0;  // number of these records that a resumed run already had
+  int there_before = 0;  // number of records that the resumed run already contained
   double wall_ns = 0;
   // The sum of the wall-clock times of all devices. It exceeds wall_ns if devices were measured in
   // parallel.

@@ -21,8 +21,8 @@ class SingleFrames {
   // the program to stop, and IoError if the store cannot be written.
   [[nodiscard]] record::Record draw(const Configuration& configuration);
 
-  // Returns the description of the device from the time when it was opened. Throws InputError if
-  // the device was never opened.
+  // Returns the description of the device, as it was when the device was opened. Throws InputError
+  // if the device was never opened.
   [[nodiscard]] record::Device device() const;
 
  private:

@@ -27,10 +27,10 @@ class EnergyMeters {
   [[nodiscard]] std::vector<std::string> names() const;
 
   // Draws frames one after the other, and returns the energy per frame in microjoules for each
-  // meter. Meters are updated only from time to time: RAPL meters every millisecond, NVIDIA meters
-  // up to ten times a second. Therefore the energy is computed for the frames between two updates
-  // that are at least a tenth of a second apart. Drawing ends when every meter has had two such
-  // updates, but at the latest after one second or three frames, whichever is longer. A meter
+  // meter. Meters are updated only at certain intervals: RAPL meters every millisecond, NVIDIA
+  // meters up to ten times a second. Therefore the energy is computed for the frames between two
+  // updates that are at least a tenth of a second apart. Drawing ends when every meter has had two
+  // such updates, but at the latest after one second or three frames, whichever is longer. A meter
   // without two such updates is absent from the result. If there are no meters, nothing is drawn.
   [[nodiscard]] record::Counts of_a_frame(const std::function<void()>& draw) const;
 

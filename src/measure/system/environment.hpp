@@ -61,7 +61,7 @@ class CacheFolder {
 // nullopt if there is no such reason. For example, LP_PERF makes llvmpipe skip work, so that times
 // and images would be wrong.
 [[nodiscard]] std::optional<std::string> forbids_measuring();
-// Does the same for the environment of a worker, given as "NAME=VALUE".
+// Like the overload above, but for a worker whose environment is given as "NAME=VALUE" strings.
 [[nodiscard]] std::optional<std::string> forbids_measuring(
     std::span<const std::string> environment);
 

@@ -135,7 +135,7 @@ void answer_features(const Backend& backend, const std::string& device_id) {
     for (const FeatureProbe& each : probes) names.json["names"].push_back(each.name);
     send(Process::child_answer_fd, names);
   }
-  probes.clear();  // before the device, to which they refer
+  probes.clear();  // before the device is closed, because the probes refer to it
 }
 
 }  // namespace triptych::measure

@@ -18,9 +18,9 @@ struct FeatureRow {
   std::optional<record::Reason> ended = {};  // set if the process crashed or hung
 };
 
-// Runs all probes of the device in their order. If `only` is not empty, runs only the probe with
-// this name. `limit` is the time limit for each probe. If the device cannot be opened, the result
-// is a single row without a name, which states the reason.
+// Runs all probes of the device, one after the other. If `only` is not empty, runs only the probe
+// with this name. `limit` is the time limit for each probe. If the device cannot be opened, the
+// result is a single row without a name, which states the reason.
 [[nodiscard]] std::vector<FeatureRow> probe_features(const std::string& device,
                                                      const std::string& only,
                                                      std::chrono::seconds limit);

@@ -91,7 +91,8 @@ Refused WorkerSlot::try_to_open(const Start& start,
   command.push_back(setup_.device);
   const auto closed = [this](Refused refused) {
     refused.reason.stage = record::Stage::opening;
-    refused.reason.subject = setup_.device;  // `detail` names the call that failed
+    // `detail` already names the call that failed, so the subject is the device.
+    refused.reason.subject = setup_.device;
     return refused;
   };
   std::unique_ptr<WorkerLink> worker;

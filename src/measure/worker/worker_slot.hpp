@@ -39,7 +39,7 @@ class WorkerSlot {
   [[nodiscard]] WorkerLink& worker() const { return *worker_; }
   [[nodiscard]] bool occupied() const noexcept { return worker_ != nullptr; }
 
-  // How a worker ended that did not answer.
+  // How a worker ended without answering.
   struct Ended {
     record::Outcome outcome;
     record::Reason reason;

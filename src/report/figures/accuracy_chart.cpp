@@ -143,7 +143,7 @@ class Diagram {
       named_.insert(colour_name(family, scene_.cases[family.members.front()]));
     }
   }
-  // If there are more families than colours, only families on the front get a colour.
+  // If there are more families than colours, only families on the Pareto front get a colour.
   std::string_view colour(const std::string& name) {
     const bool has_one = named_.contains(name) || colours_.contains(name);
     if (!has_one && (scene_.families.size() > colour_count || name.empty())) return "soft";

@@ -36,7 +36,7 @@ const accuracy::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_
   });
 }
 
-// Returns the front with the largest area among all devices, for the same limit image as in
+// Returns the Pareto front with the largest area among all devices, for the same limit image as in
 // `scene`.
 const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
                                   const AccuracyScene& scene) {

@@ -27,9 +27,9 @@ std::vector<std::string> techniques_of(const SameBits& group) {
   return names;
 }
 
-// Describes how an image was drawn. Lists each factor that has fewer levels in the group than in
-// the scene, because only these distinguish the image from the other images of the scene. The
-// technique is left out, because titled() states it.
+// Describes how an image was drawn. Lists only factors that have fewer levels in the group than in
+// the scene, because the other factors do not distinguish the image from other images of the scene.
+// The technique is left out, because titled() states it.
 std::vector<std::string> made_by(const SameBits& group, const PictureScene& scene) {
   std::map<std::string, std::set<std::string>> seen;
   std::map<std::string, std::set<std::string>> here;
