@@ -36,8 +36,7 @@ Buffer room(const Api& gl, GLenum target, std::uint64_t bytes) {
   gl.BindBuffer(target, buffer.get());
   gl.BufferData(target, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_COPY);
   if (gl.GetError() == GL_OUT_OF_MEMORY) {
-    throw core::NotSupported(
-        fmt::format("the driver has no memory for a buffer of {} bytes", bytes));
+    throw core::NotSupported(fmt::format("the driver cannot allocate a buffer of {} bytes", bytes));
   }
   return buffer;
 }
@@ -173,7 +172,7 @@ ProbedFeature probe_addressing(const Api& gl, GLint mode, GLuint levels) {
   }
   return judged_feature(right, expected,
                         levels > 1 ? fmt::format("{} levels", levels)
-                                   : std::string("coordinates from -1 to 3 in both axes"));
+                                   : std::string("coordinates from -1 to 3 on both axes"));
 }
 
 ProbedFeature probe_wide_image(const Api& gl) {
@@ -264,7 +263,7 @@ ProbedFeature probe_indirect_draws(const Api& gl) {
 ProbedFeature probe_instances(const Api& gl) {
   constexpr GLuint count = 10'000'000;
   if (gl.limit(GL_MAX_RENDERBUFFER_SIZE) < 4096) {
-    throw core::NotSupported("needs a GL_MAX_RENDERBUFFER_SIZE of 4096");
+    throw core::NotSupported("needs a GL_MAX_RENDERBUFFER_SIZE of at least 4096");
   }
   return probe_points(gl, {4096, 2442}, count, count, fmt::format("{} instances", count),
                       [&] { gl.DrawArraysInstanced(GL_POINTS, 0, 1, count); });

@@ -27,7 +27,7 @@ Texture texels_of(const Api& gl, const Buffer& buffer, std::size_t words, GLenum
   const auto most = static_cast<std::size_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
   if (texels > most) {
     throw core::NotSupported(fmt::format(
-        "needs {} texels in one buffer, but GL_MAX_TEXTURE_BUFFER_SIZE is {}", texels, most));
+        "needs a buffer texture of {} texels, but GL_MAX_TEXTURE_BUFFER_SIZE is {}", texels, most));
   }
   Texture texture(gl);
   gl.BindTexture(GL_TEXTURE_BUFFER, texture.get());

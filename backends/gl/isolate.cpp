@@ -73,10 +73,10 @@ Answer conclude(pid_t child, bool in_time, std::string text, std::chrono::millis
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
-  if (!in_time) return {{}, fmt::format("no answer within {} ms", limit.count())};
+  if (!in_time) return {{}, fmt::format("no response within {} ms", limit.count())};
   if (WIFSIGNALED(status)) return {{}, fmt::format("crashed: {}", strsignal(WTERMSIG(status)))};
   if (WIFEXITED(status) && WEXITSTATUS(status) == exit_answered) return {std::move(text), {}};
-  return {{}, text.empty() ? "ended without an answer" : std::move(text)};
+  return {{}, text.empty() ? "exited without responding" : std::move(text)};
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ std::optional<std::string> polygon_tess_unsupported(const Api& gl,
   const std::int64_t most =
       has_tessellation(gl) ? 4 * gl.limit(GL_MAX_TESS_GEN_LEVEL) : std::int64_t{corners};
   if (corners > most) {
-    return fmt::format("polygons have {} corners, but GL_MAX_TESS_GEN_LEVEL allows {}", corners,
-                       most);
+    return fmt::format("corners={} is too large; GL_MAX_TESS_GEN_LEVEL allows at most {} corners",
+                       corners, most);
   }
   return sprites_unsupported(gl, work, polygon_tess_sprites(gl));
 }

@@ -101,7 +101,7 @@ template <class GetSize, class GetLog>
 std::string log_of(GLuint name, GetSize get_size, GetLog get_log) {
   GLint size = 0;
   get_size(name, GL_INFO_LOG_LENGTH, &size);
-  if (size <= 0) return fmt::format("the driver has no log: GL_INFO_LOG_LENGTH is {}", size);
+  if (size <= 0) return fmt::format("the driver provides no log: GL_INFO_LOG_LENGTH is {}", size);
   std::string log(static_cast<std::size_t>(size), '\0');
   GLsizei length = 0;
   get_log(name, size, &length, log.data());
@@ -186,8 +186,8 @@ Program link(const Api& gl, std::span<const Stage> stages) {
     const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
     for (const Stage& stage : stages) {
       measure::write_dump("shader", extension_of(stage.type), stage.source,
-                          fmt::format("{}; its program of {} stages was compiled and linked in "
-                                      "{:.1f} ms",
+                          fmt::format("{}; part of a program with {} stages, which was compiled "
+                                      "and linked in {:.1f} ms",
                                       stage_name(stage.type), stages.size(), took.count()));
     }
   }

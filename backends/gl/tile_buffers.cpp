@@ -156,7 +156,7 @@ void TileBuffers::see(const Api& gl, GLuint binding, GLuint buffer, std::size_t 
   const auto most = static_cast<std::size_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
   if (texels > most) {
     throw core::NotSupported(fmt::format(
-        "needs {} texels in one buffer, but GL_MAX_TEXTURE_BUFFER_SIZE is {}", texels, most));
+        "needs a buffer texture of {} texels, but GL_MAX_TEXTURE_BUFFER_SIZE is {}", texels, most));
   }
   Texture texture(gl);
   gl.BindTexture(GL_TEXTURE_BUFFER, texture.get());

@@ -26,15 +26,15 @@ technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
   if (is_packed(work)) {
     const auto texels = static_cast<std::uint64_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
     return {texels * technique::packed_texel_bytes(grid.format),
-            "the limit from GL_MAX_TEXTURE_BUFFER_SIZE"};
+            "the limit derived from GL_MAX_TEXTURE_BUFFER_SIZE"};
   }
   const auto edge = static_cast<int>(gl.limit(GL_MAX_3D_TEXTURE_SIZE));
-  std::string limit = "the limit from GL_MAX_3D_TEXTURE_SIZE";
+  std::string limit = "the limit derived from GL_MAX_3D_TEXTURE_SIZE";
   if (std::max(grid.size[0], grid.size[1]) > edge) return {0, limit};
   int depth = std::min(grid.size[2], edge);
   while (depth > 0 && !holds(gl, {grid.size[0], grid.size[1], depth}, grid.format)) {
     depth /= 2;
-    limit = "the limit from GL_PROXY_TEXTURE_3D";
+    limit = "the limit found with GL_PROXY_TEXTURE_3D";
   }
   return {technique::layers_of(work.scene, work.options).bytes * static_cast<std::uint64_t>(depth),
           limit};

@@ -158,8 +158,8 @@ std::optional<std::string> texture_reason(const Api& gl, const scene::VoxelGrid&
   }
   if (!in_parts && !holds_whole(gl, grid.size, grid.format)) {
     return fmt::format(
-        "the driver rejects a texture of {}x{}x{} voxels of format {} ({} bytes), according to "
-        "GL_PROXY_TEXTURE_3D",
+        "GL_PROXY_TEXTURE_3D reports that the driver cannot create a texture of {}x{}x{} voxels in "
+        "format {} ({} bytes)",
         nx, ny, nz, scene::name_of(grid.format), grid.data.size());
   }
   return std::nullopt;

@@ -38,7 +38,7 @@ Enum level(const Json& value, std::string_view key, const std::array<std::string
 
 double number(const Json& value, std::string_view key, double minimum) {
   if (!value.is_number() || value.get<double>() < minimum) {
-    refuse(key, fmt::format("a number, {} or more", minimum));
+    refuse(key, fmt::format("a number of at least {}", minimum));
   }
   return value.get<double>();
 }
@@ -69,7 +69,8 @@ bool happens(const Failure& failure) {
 }
 
 Failure parse_failure(const Json& json) {
-  if (!json.is_object() || !json.contains("kind")) refuse("failures", "objects with a \"kind\"");
+  if (!json.is_object() || !json.contains("kind"))
+    refuse("failures", "objects that contain a \"kind\"");
   Failure failure;
   failure.kind = level<FailureKind>(json.at("kind"), "kind", kind_names);
   const bool of_image = is_of_image(failure.kind);
@@ -78,14 +79,14 @@ Failure parse_failure(const Json& json) {
     if (key == "at") {
       failure.at = level<Place>(value, key, place_names);
     } else if (key == "frame") {
-      if (!value.is_number_unsigned()) refuse(key, "a whole number, 0 or more");
+      if (!value.is_number_unsigned()) refuse(key, "a non-negative integer");
       failure.frame = value.get<int>();
     } else if (key == "only") {
       failure.only = text(value, key);
     } else if (key == "once") {
       failure.once = text(value, key);
     } else if (key != "kind") {
-      refuse(key, "one of the keys kind, at, frame, only, once in a failure");
+      refuse(key, "a key of a failure (kind, at, frame, only or once)");
     }
   }
   if (of_image && failure.at != Place::image)
@@ -94,7 +95,8 @@ Failure parse_failure(const Json& json) {
 }
 
 std::vector<double> parse_factors(const std::string& key, const Json& value) {
-  if (!value.is_array() || value.empty()) refuse(key, "a list of factors on time");
+  if (!value.is_array() || value.empty())
+    refuse(key, "a non-empty list of factors by which times are multiplied");
   std::vector<double> factors;
   for (const Json& each : value) factors.push_back(number(each, key, 0));
   return factors;
@@ -122,7 +124,7 @@ bool parse_number(const std::string& key, const Json& value, Script& script) {
 void parse_key(const std::string& key, const Json& value, Script& script) {
   if (parse_number(key, value, script)) return;
   if (key == "seed") {
-    if (!value.is_number_unsigned()) refuse(key, "a whole number, 0 or more");
+    if (!value.is_number_unsigned()) refuse(key, "a non-negative integer");
     script.seed = value.get<std::uint64_t>();
   } else if (key == "devices") {
     script.devices = parse_factors(key, value);
@@ -136,7 +138,7 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
   } else if (key == "counts") {
     script.counts = flag(value, key);
   } else if (key == "extra_samples") {
-    if (!value.is_number_unsigned()) refuse(key, "a whole number, 0 or more");
+    if (!value.is_number_unsigned()) refuse(key, "a non-negative integer");
     script.extra_samples = value.get<std::uint64_t>();
   } else if (key == "sleep") {
     script.sleep = flag(value, key);
@@ -146,7 +148,8 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
       script.images.emplace_back(glob, text(file, key));
     }
   } else if (key == "factors") {
-    if (!value.is_object()) refuse(key, "an object that maps globs to factors on time");
+    if (!value.is_object())
+      refuse(key, "an object that maps globs to factors by which times are multiplied");
     for (const auto& [glob, factor] : value.items()) {
       script.factors.emplace_back(glob, number(factor, key, 0));
     }
@@ -154,7 +157,7 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
     if (!value.is_array()) refuse(key, "a list");
     for (const Json& each : value) script.failures.push_back(parse_failure(each));
   } else {
-    refuse(key, "a key that is listed in backends/null/backend.hpp");
+    refuse(key, "one of the keys listed in backends/null/backend.hpp");
   }
 }
 
@@ -175,7 +178,7 @@ void play(FailureKind kind) {
     case FailureKind::api_error:
       throw core::ApiError("null_frame", "NULL_ERROR", "scripted");
     case FailureKind::not_supported:
-      throw core::NotSupported("the script declares this as unsupported");
+      throw core::NotSupported("the null script declares this call unsupported");
     case FailureKind::garbage:
       static_cast<void>(::write(4, "garbage", 7));  // measure/system/process.hpp
       break;

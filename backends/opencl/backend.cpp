@@ -26,7 +26,7 @@ class Backend final : public measure::Backend {
       if (each.info.id == device_id) return open_device(std::move(each));
     }
     std::string message = fmt::format("no OpenCL device '{}'", device_id);
-    for (const Found& each : search.found) message += fmt::format("; there is {}", each.info.id);
+    for (const Found& each : search.found) message += fmt::format("; available: {}", each.info.id);
     for (const auto& each : search.broken)
       message += fmt::format("; {}: {}", each.what, each.reason);
     throw core::NotSupported(message);

@@ -90,8 +90,8 @@ std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const 
   const double allowed = technique::allowed_filter_error(technique::least_weight_bits, format);
   if (error <= allowed) return std::nullopt;
   return fmt::format(
-      "sampler=hardware: the device reads images of half floats with an error of {:.3g}, but at "
-      "most {:.3g} is allowed",
+      "sampler=hardware: the device reads half-float images with an error of {:.3g}, but the "
+      "tolerance is {:.3g}",
       error, allowed);
 }
 
@@ -112,9 +112,9 @@ std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) co
                                             device.getInfo<CL_DEVICE_IMAGE3D_MAX_DEPTH>()};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (static_cast<std::size_t>(grid.size.at(axis)) > limits.at(axis)) {
-        return fmt::format("the volume has {}x{}x{} voxels, but 3D images have at most {}x{}x{}",
-                           grid.size[0], grid.size[1], grid.size[2], limits[0], limits[1],
-                           limits[2]);
+        return fmt::format(
+            "the volume has {}x{}x{} voxels, but the device supports 3D images of at most {}x{}x{}",
+            grid.size[0], grid.size[1], grid.size[2], limits[0], limits[1], limits[2]);
       }
     }
     return std::nullopt;

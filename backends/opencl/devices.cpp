@@ -145,7 +145,7 @@ void add_platform(Search& search, const cl::Platform& platform, std::map<std::st
     std::vector<cl::Device> devices;
     const cl_int code = platform.getDevices(CL_DEVICE_TYPE_ALL, &devices);
     if (code != CL_SUCCESS || devices.empty()) {
-      search.broken.push_back({"OpenCL platform " + name, "it lists no device"});
+      search.broken.push_back({"OpenCL platform " + name, "it reports no devices"});
       return;
     }
     const std::string driver = driver_of(name);
@@ -155,7 +155,7 @@ void add_platform(Search& search, const cl::Platform& platform, std::map<std::st
     search.broken.push_back(
         {"OpenCL platform " + name,
          error.err() == CL_DEVICE_NOT_FOUND
-             ? "it lists no device"
+             ? "it reports no devices"
              : fmt::format("{} returned {}", error.what(), code_name(error.err()))});
   } catch (const core::ApiError& error) {
     search.broken.push_back({"OpenCL platform " + name, error.what()});
@@ -197,7 +197,7 @@ Search find_devices() {
         {"OpenCL loader", fmt::format("{} returned {}", error.what(), code_name(error.err()))});
     return search;
   }
-  if (platforms.empty()) search.broken.push_back({"OpenCL loader", "it lists no platform"});
+  if (platforms.empty()) search.broken.push_back({"OpenCL loader", "it reports no platforms"});
   std::map<std::string, int> seen;
   for (const cl::Platform& platform : platforms) add_platform(search, platform, seen);
   return search;

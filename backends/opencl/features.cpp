@@ -107,7 +107,7 @@ ProbedFeature probe_small_storage(const Bench& bench, const char* kernel, unsign
   const auto found = read_back<Value>(bench, buffer, count);
   return judged_feature(
       count_right(found, [&](std::size_t i) { return static_cast<Value>(7 * i + factor * i); }),
-      count, fmt::format("{} values of {} bits", count, 8 * sizeof(Value)));
+      count, fmt::format("{} {}-bit values", count, 8 * sizeof(Value)));
 }
 
 ProbedFeature probe_launch_offset(const Bench& bench) {
@@ -156,7 +156,7 @@ ProbedFeature probe_event_status(const Bench& bench) {
     complete += count_right(statuses, [](std::size_t) { return CL_COMPLETE; });
   }
   return judged_feature(complete, commands * rounds,
-                        fmt::format("events of {} commands after clFinish", commands * rounds));
+                        fmt::format("{} command events after clFinish", commands * rounds));
 }
 
 // Images
@@ -207,7 +207,7 @@ ProbedFeature probe_addressing(const Bench& bench, const char* kernel) {
     return x == image_edge || y == image_edge ? 0.0F : texels[x + image_edge * y];
   };
   return judged_feature(count_right(found, expected), count,
-                        "coordinates from -1 to 3 in both axes");
+                        "coordinates from -1 to 3 on both axes");
 }
 
 ProbedFeature probe_wide_image(const Bench& bench) {

@@ -156,13 +156,13 @@ void check_executed(const cl::Event& event, const std::string& call, const std::
   }
   if (status == CL_COMPLETE) return;
   if (status < 0) {
-    const std::string ended = "the command was enqueued, but ended abnormally";
+    const std::string ended = "the command was enqueued, but its execution failed";
     throw_api_error(cl::Error(status, call.c_str()), place,
                     detail.empty() ? ended : fmt::format("{}: {}", detail, ended));
   }
   throw core::ApiError(
       call, fmt::format("execution status {}", status),
-      fmt::format("{}{}the command has not completed although the program waited for its event",
+      fmt::format("{}{}the command has not completed although triptych waited for its event",
                   detail, detail.empty() ? "" : ": "),
       place);
 }

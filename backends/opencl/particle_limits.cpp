@@ -40,7 +40,8 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
       checked([&] { return session.device.getInfo<CL_DEVICE_MAX_WORK_GROUP_SIZE>(); });
   if (items < scan_items) {
     return fmt::format(
-        "sprites are binned by groups of {} work items, but CL_DEVICE_MAX_WORK_GROUP_SIZE is {}",
+        "binning sprites requires work-groups of {} work items, but CL_DEVICE_MAX_WORK_GROUP_SIZE "
+        "is {}",
         scan_items, items);
   }
   const auto most = checked([&] { return session.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); });
@@ -53,7 +54,7 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
   const std::uint64_t largest = std::max(16 * std::max(count, pixels), table);
   if (largest > most) {
     return fmt::format(
-        "{} particles and {} pixels need {} bytes in one buffer, but CL_DEVICE_MAX_MEM_ALLOC_SIZE "
+        "{} particles and {} pixels need a buffer of {} bytes, but CL_DEVICE_MAX_MEM_ALLOC_SIZE "
         "is {}",
         count, pixels, largest, most);
   }

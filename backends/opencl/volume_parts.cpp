@@ -13,7 +13,7 @@ technique::Cut cut_of(const Session& session, std::string_view technique,
       .limit = "CL_DEVICE_MAX_MEM_ALLOC_SIZE"};
   const std::uint64_t indexed = most_indices * scene::bytes_of(grid.format);
   if (work.options.sampler == technique::Sampler::manual && indexed < room.bytes) {
-    room = {indexed, "the index range of the kernel"};
+    room = {indexed, "the size of the largest buffer that the kernel can index"};
   }
   return technique::cut_into_parts(technique, work.scene, work.options, bordered_layers(grid),
                                    technique::within_budget(room, work.options));

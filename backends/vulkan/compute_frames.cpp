@@ -59,7 +59,7 @@ void ComputeFrames::record_timed(const vk::raii::CommandBuffer& commands) const 
 
 void ComputeFrames::dispatch(const vk::raii::CommandBuffer& commands, Pass pass,
                              int columns) const {
-  const Label label(gpu_, commands, "raycast: one work group for 8x8 pixels");
+  const Label label(gpu_, commands, "raycast: one work group per 8x8 pixels");
   commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *resources_.layout().pipeline, 0,
                               resources_.set(pass), {});
   commands.dispatch(tiles(columns), tiles(height_), 1);

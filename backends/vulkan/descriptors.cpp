@@ -14,8 +14,7 @@ Layout make_layout(const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutB
   vk::raii::DescriptorSetLayout set(
       gpu.device, vk::DescriptorSetLayoutCreateInfo{.bindingCount = bindings.size(),
                                                     .pBindings = bindings.data()});
-  const vk::PushConstantRange push{.stageFlags = push_stages,
-                                   .size = push_bytes};
+  const vk::PushConstantRange push{.stageFlags = push_stages, .size = push_bytes};
   vk::raii::PipelineLayout pipeline(
       gpu.device, vk::PipelineLayoutCreateInfo{.setLayoutCount = 1,
                                                .pSetLayouts = &*set,
@@ -61,8 +60,9 @@ void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  vk::DescriptorType type, const Buffer& buffer) {
   const std::uint32_t most = gpu.properties.limits.maxStorageBufferRange;
   if (type == vk::DescriptorType::eStorageBuffer && buffer.size() > most) {
-    throw core::NotSupported(fmt::format(
-        "needs {} bytes in one buffer, but maxStorageBufferRange is {}", buffer.size(), most));
+    throw core::NotSupported(
+        fmt::format("needs a storage buffer of {} bytes, but maxStorageBufferRange is {}",
+                    buffer.size(), most));
   }
   if (!gpu.executes) return;
   const vk::DescriptorBufferInfo info{.buffer = buffer.get(), .range = buffer.size()};
@@ -79,7 +79,7 @@ vk::raii::BufferView texel_view(const Gpu& gpu, const Buffer& buffer, vk::Format
   const vk::DeviceSize most = gpu.properties.limits.maxTexelBufferElements;
   if (texels > most) {
     throw core::NotSupported(fmt::format(
-        "needs {} texels in one buffer, but maxTexelBufferElements is {}", texels, most));
+        "needs a texel buffer of {} texels, but maxTexelBufferElements is {}", texels, most));
   }
   if (!gpu.executes) return nullptr;
   return {gpu.device, vk::BufferViewCreateInfo{

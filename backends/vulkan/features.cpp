@@ -80,7 +80,7 @@ ProbedFeature probe_offset(const Gpu& gpu, std::uint64_t offset) {
   const std::uint64_t needed = offset + bytes;
   if (const std::uint64_t most = largest_allocation(gpu); needed > most) {
     throw core::NotSupported(fmt::format(
-        "needs a buffer of {} bytes, but the device allocates at most {}", needed, most));
+        "needs a buffer of {} bytes, but the device can allocate at most {} bytes", needed, most));
   }
   const Buffer buffer(gpu, needed, storage_usage, Place::device);
   const Kernel kernel(gpu, "features_write.comp.spv", {storage_type}, sizeof(Line));
@@ -128,7 +128,7 @@ ProbedFeature probe_subgroups(const Gpu& gpu) {
           .get<vk::PhysicalDeviceSubgroupProperties>();
   if (!(subgroups.supportedOperations & vk::SubgroupFeatureFlagBits::eArithmetic) ||
       !(subgroups.supportedStages & vk::ShaderStageFlagBits::eCompute)) {
-    throw core::NotSupported("compute shaders do not support subgroup arithmetic");
+    throw core::NotSupported("the device does not support subgroup arithmetic in compute shaders");
   }
   constexpr std::uint32_t groups = 256;
   constexpr std::size_t count = std::size_t{64} * groups;
@@ -213,7 +213,7 @@ ProbedFeature probe_addressing(const Gpu& gpu, vk::SamplerAddressMode mode) {
     return x == image_edge || y == image_edge ? border_value : texel_value(x, y);
   };
   return judged_feature(count_right(found, expected), count,
-                        "coordinates from -1 to 3 in both axes");
+                        "coordinates from -1 to 3 on both axes");
 }
 
 ProbedFeature probe_wide_image(const Gpu& gpu) {

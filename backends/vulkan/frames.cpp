@@ -135,7 +135,7 @@ record::Counts Frames::statistics() const {
           vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
   if (result != vk::Result::eSuccess) {
     throw measure::StatisticsNotReady("vkGetQueryPoolResults", vk::to_string(result),
-                                      "for pipeline statistics, with VK_QUERY_RESULT_WAIT_BIT");
+                                      "for pipeline statistics, despite VK_QUERY_RESULT_WAIT_BIT");
   }
   std::size_t at = 0;
   for (const Statistic& each : statistics_in_order) {

@@ -59,10 +59,9 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
   } catch (const vk::SystemError& error) {
     // Larger allocations may succeed, but devices may refuse them.
     if (needed.size > gpu.most_allocated) {
-      throw core::NotSupported(
-          fmt::format("needs {} bytes in one allocation, which the device refused; "
-                      "maxMemoryAllocationSize is {}",
-                      needed.size, gpu.most_allocated));
+      throw core::NotSupported(fmt::format(
+          "the device rejected an allocation of {} bytes; maxMemoryAllocationSize is {}",
+          needed.size, gpu.most_allocated));
     }
     rethrow(error, code_place,
             fmt::format("for {} bytes of memory type {} in a heap of {} bytes", needed.size, type,

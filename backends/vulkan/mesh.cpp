@@ -16,9 +16,10 @@ constexpr std::uint32_t mesh_invocations = 32;
 constexpr std::uint32_t cells_per_task_group = 32;
 
 SpriteDraw draw_meshes_with(SpriteStage task) {
-  return {.stages = {task,
-                     {vk::ShaderStageFlagBits::eMeshEXT, "mesh.mesh.spv", "mesh_counting.mesh.spv"}},
-          .meshes = true};
+  return {
+      .stages = {task,
+                 {vk::ShaderStageFlagBits::eMeshEXT, "mesh.mesh.spv", "mesh_counting.mesh.spv"}},
+      .meshes = true};
 }
 
 constexpr SpriteStage draws_all{vk::ShaderStageFlagBits::eTaskEXT, "mesh_all.task.spv",
@@ -37,7 +38,8 @@ SpriteTechnique mesh_technique(technique::Culling culling) {
     case technique::Culling::frustum:
       return {.draw = draw_meshes_with(draws_in_view)};
     case technique::Culling::occlusion:
-      return {.draw = draw_meshes_with(draws_seen_before), .later = draw_meshes_with(draws_seen_now)};
+      return {.draw = draw_meshes_with(draws_seen_before),
+              .later = draw_meshes_with(draws_seen_now)};
   }
   return {.draw = draw_meshes_with(draws_all)};
 }
@@ -48,15 +50,15 @@ void check_mesh_limits(const Gpu& gpu, std::size_t cells) {
       has.mesh_invocations < mesh_invocations) {
     throw core::NotSupported(fmt::format(
         "a mesh work group generates {} vertices and {} primitives with {} invocations, but the "
-        "device supports {}, {} and {}",
+        "device's limits are {}, {} and {}",
         mesh_vertices, mesh_primitives, mesh_invocations, has.mesh_vertices, has.mesh_primitives,
         has.mesh_invocations));
   }
   const std::size_t groups = (cells + cells_per_task_group - 1) / cells_per_task_group;
   if (groups > has.task_groups) {
     throw core::NotSupported(
-        fmt::format("{} cells of particles need {} task groups, but maxTaskWorkGroupCount is {}",
-                    cells, groups, has.task_groups));
+        fmt::format("{} particle cells need {} task groups, but maxTaskWorkGroupCount is {}", cells,
+                    groups, has.task_groups));
   }
 }
 

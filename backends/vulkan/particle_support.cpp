@@ -29,8 +29,9 @@ std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleS
   }
   const std::uint64_t bytes = sphere_bytes * set.count();
   if (drawn.fetches_by_index && bytes > limits.maxStorageBufferRange) {
-    return fmt::format("{} particles need {} bytes in one buffer, but maxStorageBufferRange is {}",
-                       set.count(), bytes, limits.maxStorageBufferRange);
+    return fmt::format(
+        "{} particles need a storage buffer of {} bytes, but maxStorageBufferRange is {}",
+        set.count(), bytes, limits.maxStorageBufferRange);
   }
   return std::nullopt;
 }
@@ -40,8 +41,9 @@ std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleS
 std::optional<std::string> corners_reason(const Gpu& gpu, int corners) {
   const std::uint32_t most = 4 * gpu.properties.limits.maxTessellationGenerationLevel;
   if (static_cast<std::uint32_t>(corners) <= most) return std::nullopt;
-  return fmt::format("polygons have {} corners, but maxTessellationGenerationLevel allows {}",
-                     corners, most);
+  return fmt::format(
+      "corners={} is too large; maxTessellationGenerationLevel allows at most {} corners", corners,
+      most);
 }
 
 }  // namespace
@@ -60,14 +62,15 @@ std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs) {
   }
   if (needs == Needs::ray_query && !gpu.extensions.ray_query) {
     return "the device lacks VK_KHR_ray_query or an extension that it depends on; lavapipe "
-           "supports them since Mesa 25.0 (Debian 13)";
+           "has supported them since Mesa 25.0 (Debian 13)";
   }
   if (needs == Needs::ray_pipeline && !gpu.extensions.ray_pipeline) {
     return "the device lacks VK_KHR_ray_tracing_pipeline or an extension that it depends on; "
-           "lavapipe supports them since Mesa 25.0 (Debian 13)";
+           "lavapipe has supported them since Mesa 25.0 (Debian 13)";
   }
   if (needs == Needs::mesh && !gpu.extensions.mesh_shader) {
-    return "the device lacks VK_EXT_mesh_shader; lavapipe supports it since Mesa 25.0 (Debian 13)";
+    return "the device lacks VK_EXT_mesh_shader; lavapipe has supported it since Mesa 25.0 (Debian "
+           "13)";
   }
   return std::nullopt;
 }
@@ -88,7 +91,8 @@ std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
       pixel_bytes * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (bytes <= limits.maxStorageBufferRange) return std::nullopt;
   return fmt::format(
-      "an image of {}x{} pixels needs {} bytes in one buffer, but maxStorageBufferRange is {}",
+      "an image of {}x{} pixels needs a storage buffer of {} bytes, but maxStorageBufferRange is "
+      "{}",
       width, height, bytes, limits.maxStorageBufferRange);
 }
 

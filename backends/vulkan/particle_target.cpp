@@ -111,7 +111,8 @@ std::optional<std::string> ParticleTarget::format_reason(const Gpu& gpu) {
   constexpr vk::FormatFeatureFlags needed = eDepthStencilAttachment | eSampledImage;
   const auto offered = gpu.physical.getFormatProperties(depth_format).optimalTilingFeatures;
   if ((offered & needed) == needed) return std::nullopt;
-  return "the device has no depth buffer of format " + vk::to_string(depth_format);
+  return "the device does not support sampled depth buffers of format " +
+         vk::to_string(depth_format);
 }
 
 void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continued) const {

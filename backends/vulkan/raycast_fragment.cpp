@@ -93,7 +93,7 @@ FragmentFrames::FragmentFrames(const Gpu& gpu, const Instance& instance,
 
 void FragmentFrames::draw(const vk::raii::CommandBuffer& commands, vk::Pipeline pipeline,
                           Pass pass) const {
-  const Label label(gpu_, commands, "raycast_fragment: one triangle over the image");
+  const Label label(gpu_, commands, "raycast_fragment: one triangle covering the image");
   const vk::Extent3D extent = target_.extent();
   const vk::Rect2D everything{.extent = {extent.width, extent.height}};
   commands.beginRenderPass(

@@ -37,7 +37,7 @@ vk::BuildAccelerationStructureFlagsKHR flags_of(Structure kind) {
 std::uint32_t checked_count(const Gpu& gpu, std::uint32_t particles) {
   if (particles > gpu.extensions.most_boxes) {
     throw core::NotSupported(
-        fmt::format("{} particles need as many boxes in an acceleration structure, "
+        fmt::format("{} particles need one box each in an acceleration structure, "
                     "but maxPrimitiveCount is {}",
                     particles, gpu.extensions.most_boxes));
   }

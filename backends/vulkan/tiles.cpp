@@ -90,7 +90,7 @@ technique::TileRounds rounds_of(const Gpu& gpu, const measure::ParticleWork& wor
   if (const auto reason = technique::passes_reason(rounds)) throw core::NotSupported(*reason);
   if (rounds.entries > most) {
     throw core::NotSupported(fmt::format(
-        "one cell of particles needs {} entries in tiles, but maxStorageBufferRange is {}",
+        "one particle cell needs {} tile entries, but maxStorageBufferRange is {} bytes",
         rounds.entries, gpu.properties.limits.maxStorageBufferRange));
   }
   return rounds;

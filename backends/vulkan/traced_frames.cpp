@@ -102,7 +102,7 @@ void TracedFrames::record(const vk::raii::CommandBuffer& commands, bool counting
     tracer_->record(commands, layout_, counting);
     barrier(commands);
   }
-  const Label label(gpu_, commands, "shade what the rays hit");
+  const Label label(gpu_, commands, "shade ray hits");
   target_.begin(commands, false);
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, show_);
   if (data_.particles() > 0) commands.draw(3, 1, 0, 0);
@@ -127,8 +127,7 @@ measure::Frame TracedFrames::frame(measure::Purpose purpose) {
     }
     measure::Frame frame = frames_.submit(purpose);
     if (counting) {
-      frame.counts =
-          data_.counts(technique::Method::rays, options_.culling, target_.read(gpu_));
+      frame.counts = data_.counts(technique::Method::rays, options_.culling, target_.read(gpu_));
       if (!tracer_->counts_nodes()) {
         // The driver decides which candidates its acceleration structure reports, so these counters
         // would differ between drivers.

@@ -19,10 +19,11 @@ technique::Room image_room(const Gpu& gpu, const technique::Layers& slices,
       texture_format(format), vk::ImageType::e3D, vk::ImageTiling::eOptimal,
       vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
   const std::uint64_t deepest = slices.bytes * gpu.properties.limits.maxImageDimension3D;
-  if (deepest < image.maxResourceSize) return {deepest, "the limit from maxImageDimension3D"};
+  if (deepest < image.maxResourceSize)
+    return {deepest, "the limit derived from maxImageDimension3D"};
   return {image.maxResourceSize, "maxResourceSize"};
 } catch (const vk::FormatNotSupportedError&) {
-  return {0, "the largest image of this format"};
+  return {0, "the maximum size of an image in this format"};
 }
 
 // Returns how much memory the device's limits leave for voxels, and the name of the limit.
@@ -31,7 +32,7 @@ technique::Room room_of(const Gpu& gpu, const measure::VolumeWork& work) {
   if (is_packed(work)) {
     const std::uint64_t texels = gpu.properties.limits.maxTexelBufferElements;
     return {texels * technique::packed_texel_bytes(format),
-            "the limit from maxTexelBufferElements"};
+            "the limit derived from maxTexelBufferElements"};
   }
   return image_room(gpu, technique::slice_layers(work.scene.grid->size, format), format);
 }
@@ -57,7 +58,7 @@ technique::Cut cut_of(const Gpu& gpu, std::string_view technique, const measure:
   const std::uint32_t most = gpu.properties.limits.maxPerStageDescriptorStorageBuffers;
   if (needed > most) {
     return {.parts = {},
-            .reason = fmt::format("a volume in parts needs {} storage buffers, but "
+            .reason = fmt::format("drawing a volume in parts needs {} storage buffers, but "
                                   "maxPerStageDescriptorStorageBuffers is {}",
                                   needed, most)};
   }

@@ -58,7 +58,7 @@ const std::vector<Lowered>& lowered() {
       {"pointSizeGranularity=1", particles},
       {"subPixelPrecisionBits=4", particles},
       {"subTexelPrecisionBits=4", volume},
-      {"floatDepth", particles, 11, "no depth buffer of format D32Sfloat"},
+      {"floatDepth", particles, 11, "sampled depth buffers of format D32Sfloat"},
       {"linearFilter", volume, 4, "cannot filter images of format"},
       {"timestampValidBits=0", volume},
       {"timestampComputeAndGraphics", volume},

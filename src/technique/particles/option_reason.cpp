@@ -74,7 +74,7 @@ std::optional<std::string> option_reason(std::string_view id, const ParticleOpti
     }
   }
   if (technique.asks_corners && options.corners < 4) {
-    return fmt::format("polygons have {} corners, but the minimum is 4", options.corners);
+    return fmt::format("corners={} is too small; the minimum is 4", options.corners);
   }
   if (technique.method == Method::rays) return fault_of_rays(options.fault);
   if (options.structure != Structure::built_once) {

@@ -97,7 +97,7 @@ std::optional<std::string> packed_reason(std::uint64_t cells, const RaycastBuffe
   constexpr std::uint64_t word = 4;
   const std::uint64_t needed = std::max({cells, buffers.bricks / word, buffers.table / (4 * word)});
   if (needed <= most.texels) return std::nullopt;
-  return fmt::format("sampler=packed needs {} texels in one buffer, but {} is {}", needed,
+  return fmt::format("sampler=packed needs a texel buffer of {} texels, but {} is {}", needed,
                      most.name, most.texels);
 }
 

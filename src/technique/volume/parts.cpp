@@ -121,7 +121,7 @@ Cut cut_into_parts(std::string_view technique, const scene::VolumeScene& scene,
   const int thinnest = 2 * overlap(scene) + 1;
   if (layers.bytes_of(thinnest) > room.bytes) {
     return {.parts = {},
-            .reason = fmt::format("{}; its thinnest part needs {}", too_large,
+            .reason = fmt::format("{}; even its thinnest part needs {} bytes", too_large,
                                   layers.bytes_of(thinnest))};
   }
   const int most_held = static_cast<int>(room.bytes / layers.bytes) - layers.more;

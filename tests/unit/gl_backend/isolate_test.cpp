@@ -44,7 +44,7 @@ TEST(AskInChild, KillsAChildThatHangs) {
         return std::string();
       },
       100ms);
-  EXPECT_EQ(answer.failure, "no answer within 100 ms");
+  EXPECT_EQ(answer.failure, "no response within 100 ms");
   EXPECT_LT(std::chrono::steady_clock::now() - started, 5s);
 }
 
@@ -56,7 +56,7 @@ TEST(AskInChild, ReportsTheMessageOfAnException) {
 
 TEST(AskInChild, ReportsAChildThatExits) {
   const Answer answer = ask_in_child([]() -> std::string { _exit(7); }, 10s);
-  EXPECT_EQ(answer.failure, "ended without an answer");
+  EXPECT_EQ(answer.failure, "exited without responding");
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ TEST_F(AsBegunTest, OtherMachinesNeedNotHaveTheDevice) {
 TEST_F(AsBegunTest, AFailedListingCannotBeJudgedAndIsShown) {
   accept_begun();
   const record::Unusable crashed{"vulkan", "", record::Reason{.cause = record::Cause::signal}};
-  const record::Unusable refused{"OpenCL platform X", "it lists no device", {}};
+  const record::Unusable refused{"OpenCL platform X", "it reports no devices", {}};
   add_begun("run", {.found = all_devices, .devices = all_devices, .unusable = {crashed, refused}});
   const GateResult result = gate("run");
   EXPECT_THAT(undecided(result), Contains(StartsWith(" listing_failed")));

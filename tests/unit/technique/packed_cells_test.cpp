@@ -83,7 +83,7 @@ TEST(PackedCells, ExceededLimitsAreReportedWithBothNumbers) {
   scene::VoxelGrid grid{.format = VoxelFormat::u8, .size = {511, 511, 512}};
   constexpr TexelLimit limit{.texels = 134217728, .name = "theLimit"};
   EXPECT_EQ(packed_reason(packed_texels(grid.size, grid.format), {}, limit).value_or(""),
-            "sampler=packed needs 134479872 texels in one buffer, but theLimit is 134217728");
+            "sampler=packed needs a texel buffer of 134479872 texels, but theLimit is 134217728");
   grid.size = {511, 511, 511};
   EXPECT_FALSE(packed_reason(packed_texels(grid.size, grid.format), {}, limit));
   EXPECT_TRUE(packed_reason(packed_texels(grid.size, grid.format),

@@ -104,7 +104,7 @@ TEST(Parts, AreRejectedWithAReason) {
         .reason.value_or("");
   };
   EXPECT_EQ(reason("raycast", Sampler::manual, 5),
-            "the volume needs 102 bytes, but theLimit is 5; its thinnest part needs 6");
+            "the volume needs 102 bytes, but theLimit is 5; even its thinnest part needs 6 bytes");
   EXPECT_EQ(reason("raycast", Sampler::manual, 6), "");
   EXPECT_EQ(
       reason("raycast_fragment", Sampler::manual, 50),
