@@ -20,8 +20,8 @@ struct Chord {
   [[nodiscard]] double length() const { return end - begin; }
 };
 
-// Clips the ray of pixel (x, y) against one plane after the other. This code is deliberately
-// different from that of the renderer, because the two are checked against each other.
+// Clips the ray of pixel (x, y) against one plane after the other. The algorithm deliberately
+// differs from that of the renderer, because the two are checked against each other.
 Chord chord_of(const Setting& setting, int x, int y) {
   Chord chord;
   chord.direction =
@@ -81,8 +81,8 @@ std::vector<double> cuts(const Setting& setting, const Chord& chord,
   return at;
 }
 
-// Returns the value g of the problems that vary only along z. It is constant in the outermost half
-// voxels.
+// Returns the value g at height z, for the problems that vary only along z. It is constant in the
+// outermost half voxels.
 double height(const Setting& setting, double z) {
   const double half = 0.5 * setting.layer_z;
   return std::clamp(z, half, setting.extent.z - half) / setting.extent.z;

@@ -51,13 +51,14 @@
 
 namespace triptych::reference {
 
-// The points that a device looks up in one piece: normally `most`, but up to `open` more or fewer.
+// The number of points that a device looks up in one piece. It is normally `most`, but may differ by
+// up to `open`.
 struct OpenPoints {
   double begin = 0;  // distance of the piece from the ray's entry
   double end = 0;
   double most = 2;
   double open = 0;
-  double may_show = 0;  // points that may or may not have opacity
+  double may_show = 0;  // number of points that may or may not have opacity
 };
 
 template <typename Stored>
@@ -90,7 +91,7 @@ class CellRule {
   }
 
   // Calls take(points, opacity) for every piece, from front to back, until `take` returns false.
-  // `points` describes the points that a device looks up.
+  // `points` states how many points a device looks up.
   template <typename Take>
   void walk_open(const Ray& ray, Take take) {
     for_each_piece(ray, [&](const Part& part, double from, double to) {
@@ -144,7 +145,7 @@ class CellRule {
     double end = 0;
     Cubic cubic;           // values along the part, as positions among the table's entries
     double error = 0;      // error of these positions
-    bool certain = false;  // whether it is visible on every device
+    bool certain = false;  // whether the part is visible on every device
     bool touches_a_kink = false;
     std::array<double, 2> of_cell{};  // where the ray enters and leaves the cell
   };

@@ -36,9 +36,9 @@ class Field {
   //     in any cell that a device may read instead. (A trilinear field is Lipschitz continuous.)
   //   - filter_weight_error times the spread of the eight voxels.
   //   - value_error.
-  //   - voxel_rounding times (the value and all terms above except value_error). The reason is that
-  //     voxels with a relative error change a weighted mean with weights ≥ 0 by at most the same
-  //     relative error.
+  //   - voxel_rounding times the sum of the value and all terms above except value_error. The
+  //     reason is that a relative error of the voxels changes their weighted mean, with weights ≥
+  //     0, by at most the same relative error.
   [[nodiscard]] Bounded at(const glm::dvec3& p, const glm::dvec3& position_error) const;
 
   // Returns at(a) − at(b) for two positions that are displaced together by up to `shared_error` per
@@ -92,7 +92,7 @@ class Field {
   double voxel_rounding_;
   double filter_weight_error_;
   double range_ = 0;  // largest minus smallest stored value
-  bool exact_;        // positions and weights have no error, so slopes are not needed
+  bool exact_;        // whether positions and weights are exact, so that slopes are not needed
 };
 
 extern template class Field<std::uint8_t>;

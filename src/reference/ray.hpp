@@ -18,7 +18,7 @@ struct Ray {
   double length = 0;             // length of the chord inside the volume; 0 if the ray misses it
   double shortest = 0;           // smallest chord on a device
   double longest = 0;            // largest chord on a device
-  glm::dvec3 position_error{};   // of a sample, per axis; includes the error of the entry
+  glm::dvec3 position_error{};   // for a sample, per axis; includes the error of the entry point
 
   // Returns the largest distance by which the ray may begin or end earlier or later on a device.
   [[nodiscard]] double slack() const;

@@ -16,7 +16,7 @@ namespace triptych::reference {
 
 struct HistorySample {
   std::int64_t index = 0;
-  glm::dvec3 place{};  // in voxels; for a step, its middle
+  glm::dvec3 place{};  // position in voxels; for a step, its midpoint
   glm::dvec3 place_error{};
   std::optional<Bounded> front;  // the value at the front of a step, for quadrature=preintegrated
   Bounded value;                 // the value at the sample, or at the back of the step

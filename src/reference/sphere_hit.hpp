@@ -54,7 +54,7 @@ struct Wobble {
 struct Reach {
   // Whether some ray may hit the sphere. If not, the members below are meaningless.
   bool possible = false;
-  bool covers = false;  // every ray hits the sphere
+  bool covers = false;  // whether every ray hits the sphere
   double nearest = 0;   // smallest distance along a ray that hits the sphere
   double farthest = 0;
   double half_lo = 0;  // smallest half chord of a ray that hits the sphere

@@ -157,7 +157,8 @@ void SphereTracer::meet(const View& view, std::uint32_t place) {
 }
 
 bool SphereTracer::is_rival(const Candidate& candidate) const {
-  if (candidate.nearest > covered_) return false;  // it is behind a surface that was found later
+  // A candidate may be behind a surface that was found later.
+  if (candidate.nearest > covered_) return false;
   if (distance_ == unreached) return true;
   const SphereTree::Sphere& shown = picture_.tree.sphere(shown_);
   const SphereTree::Sphere& other = picture_.tree.sphere(candidate.place);

@@ -27,7 +27,7 @@ struct SphereErrorModel {
 struct SphereTruth {
   int width = 0;
   int height = 0;
-  std::vector<double> rgba;   // as core::Image, top row first
+  std::vector<double> rgba;   // as in core::Image, top row first
   std::vector<double> depth;  // Z, the distance along the view axis; +inf if no particle is visible
   std::vector<std::uint32_t> ids;     // core::Image::no_particle if none is visible
   std::vector<double> bound;          // per pixel, for any channel; for an uncertain pixel it

@@ -10,8 +10,8 @@
 namespace triptych::particles_suite {
 
 // Returns the allowed differences by counter name, compared with a device that draws all sprites as
-// points. `largest` is the size in pixels up to which the device certainly draws a sprite as a
-// point.
+// points. `largest` is the size in pixels up to which the device is guaranteed to draw a sprite as
+// a point.
 //
 //   - vertices: a quad has four vertices, a point only one.
 //   - fragments and fragments_discarded: a point is the square around the rectangle of a

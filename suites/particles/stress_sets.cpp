@@ -79,8 +79,8 @@ StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// A lattice whose edges are as long as the radius. Each sphere cuts into 18 others, and its visible
-// part is bounded by the bisecting planes.
+// A cubic lattice whose spacing equals the radius. Each inner sphere intersects 18 others, and its
+// visible part is bounded by the bisecting planes.
 StressScene stress_interpenetrating(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({3, 2.2, 4.1}, {0, 0, 0}, 45), stress_side, stress_side);
   for (int z = 0; z < 4; ++z) {

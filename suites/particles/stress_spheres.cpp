@@ -76,7 +76,8 @@ StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) 
   camera.up = up;
   StressMaker maker(colour, camera, stress_side, stress_side);
   maker.add({0, 0, 0}, 1);
-  // These spheres are half sunk into the ground. Some are before the horizon, some behind it.
+  // These spheres are half sunk into the ground. Some of them are in front of the horizon, others
+  // behind it.
   for (const double angle : {0.004, 0.014, 0.1, 0.5}) {
     const glm::dvec3 foot = std::cos(angle) * up + std::sin(angle) * ahead;
     maker.add(foot + 0.3 * angle * camera.right(), 0.2 * angle);

@@ -18,7 +18,7 @@ void check_value(const measure::Factor& factor, std::string_view value,
 // The level of `budget` that sets no limit.
 inline constexpr std::string_view no_budget = "none";
 
-// The paper's field of view for volumes, in degrees.
+// The field of view for volumes in the paper (docs/paper.md), in degrees.
 inline constexpr double field_of_view = 90;
 
 }  // namespace triptych::volume_suite

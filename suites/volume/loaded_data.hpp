@@ -42,8 +42,8 @@ class DataLoader {
   // Loads the volume. For a stress case, `stress` receives the rest of its scene.
   [[nodiscard]] scene::Volume read(const measure::Configuration& configuration,
                                    std::optional<StressScene>& stress) const;
-  // Loads and encodes the volume. Calls `on_note` for every note about something that a reader
-  // guessed or left out. The result is valid until the next call.
+  // Loads and encodes the volume. Calls `on_note` with each note of the file reader, which states
+  // what the reader guessed or left out. The result is valid until the next call.
   const LoadedData& load(const measure::Configuration& configuration, const ChooseFormat& choose,
                          const OnNote& on_note);
 

@@ -84,8 +84,8 @@ StressScene stress_chord(std::string_view variant) {
   return scene;
 }
 
-// Field and camera are mirrored along the axes marked `m`. An odd number of mirrors exchanges left
-// and right in the image, because the camera's axes are right-handed; an even number does not.
+// Field and camera are mirrored along the axes marked `m`. An odd number of reflections mirrors the
+// image horizontally, because the camera's axes are right-handed; an even number does not.
 StressScene stress_octant(std::string_view variant) {
   const glm::dvec3 sign(variant[0] == 'm' ? -1 : 1, variant[1] == 'm' ? -1 : 1,
                         variant[2] == 'm' ? -1 : 1);

@@ -38,7 +38,7 @@ using scene::looking;
 
 // Returns a scene with this volume and ramp(20, 0.4), seen from outside.
 [[nodiscard]] StressScene seen_from_outside(scene::Volume volume);
-// Returns such a scene with the lopsided volume of 24³ voxels.
+// Returns seen_from_outside() for the lopsided field, in a volume of 24³ voxels.
 [[nodiscard]] StressScene lopsided_scene();
 
 // These functions return the expectation that the image matches the image of another variant, whose

@@ -38,8 +38,8 @@ record::Expectation every_sample(double least_length, double step_voxels) {
           record::CountAtMost{.counter = "rays_hit", .factor = 1 / least, .of = "samples"}};
 }
 
-// Returns a scene with a cube of 4³ voxels, seen along its length from one end, with few rays and
-// many samples.
+// Returns a scene with a cube of 4³ voxels, seen approximately along its z axis, in an image with
+// few rays and many samples along each ray.
 StressScene marched(double step_voxels, int pixels) {
   StressScene scene = lopsided_scene();
   scene.volume = volume_of(

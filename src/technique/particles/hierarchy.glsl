@@ -11,8 +11,8 @@
 // unit length), TRI_TREE_SHAPE (uvec4: the numbers of particles, levels, particles per leaf, and leaves with one
 // more particle), and TRI_STEP (uvec4), whose components are explained in each kernel.
 layout(std430) TRI_BINDING(7) buffer Boxes { vec4 boxes[]; };              // lower and upper corner of each node
-layout(std430) TRI_BINDING(8) buffer TreeSpheres { vec4 tree_spheres[]; };  // world space, in the order of the tree
-layout(std430) TRI_BINDING(9) buffer TreeOrder { uint tree_order[]; };      // the particle of each tree sphere
+layout(std430) TRI_BINDING(8) buffer TreeSpheres { vec4 tree_spheres[]; };  // in world space, in tree order
+layout(std430) TRI_BINDING(9) buffer TreeOrder { uint tree_order[]; };      // the particle index of each tree sphere
 layout(std430) TRI_BINDING(10) buffer Sorted { uint sorted[]; };            // two lists of (position, particle)
 layout(std430) TRI_BINDING(12) buffer Scratch { uint scratch[]; };
 

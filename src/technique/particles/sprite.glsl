@@ -46,8 +46,9 @@ float point_size(vec2 low, vec2 high) {
   return max(pixels.x, pixels.y);
 }
 
-// Computes the paper's screen-aligned quad, which is the rectangle around the silhouette or, if the sphere reaches
-// the plane of the eye and thus has no bounded silhouette, the whole viewport. low > high if nothing is visible.
+// Computes the screen-aligned quad of the paper (docs/paper.md), which is the rectangle around the
+// silhouette or, if the sphere reaches the plane of the eye and thus has no bounded silhouette, the
+// whole viewport. low > high if nothing is visible.
 void screen_bounds(vec4 sphere, out vec2 low, out vec2 high) {
   image_bounds(sphere, low, high);
   if (tri_eye_plane(sphere.z, sphere.w) == 1) {

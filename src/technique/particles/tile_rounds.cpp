@@ -69,7 +69,7 @@ class NeedBound {
     double columns = columns_;
     double rows = rows_;
     double pixels = double{tile_edge} * tile_edge * columns * rows;
-    bool small = true;  // because only a small part of the sphere may be visible
+    bool small = true;  // possible, because only a small part of the sphere may be visible
     if (z > 1.001 * r) {
       const double width = extent(glm::dot(to, right_), z, r, half_x_);
       const double height = extent(glm::dot(to, camera_.up), z, r, half_y_);

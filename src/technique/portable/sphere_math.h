@@ -133,10 +133,11 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   return TRI_MAKE_FLOAT2(first, second);
 }
 
-// Returns −1 if the sphere is completely behind the plane through the eye that is parallel to the image, 1 if it
-// reaches this plane or comes so close to it that its projection has no bounds, and 0 if it is in front of the
-// plane. If it reaches the plane, the paper's screen-aligned quad (a rectangle around projected tangent points)
-// does not exist. The quad is then the whole viewport, which makes this technique expensive for close spheres.
+// Returns −1 if the sphere is completely behind the plane through the eye that is parallel to the
+// image, 1 if it reaches this plane or comes so close to it that its projection has no bounds, and
+// 0 if it is in front of the plane. If it reaches the plane, the screen-aligned quad of the paper
+// (docs/paper.md), a rectangle around projected tangent points, does not exist. The quad is then
+// the whole viewport, which makes this technique expensive for close spheres.
 TRI_FN int tri_eye_plane(float z, float r) { return z + r <= 0.0f ? 0 - 1 : (z - r > 0.001f * r ? 0 : 1); }
 
 // ---- Sprites --------------------------------------------------------------------------------------

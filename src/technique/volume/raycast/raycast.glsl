@@ -55,7 +55,7 @@ void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step
   // With an injected fault, this can differ from the distance between the two ends of the step.
   real length = step_voxels * tri_step_share(ray.steps, m.i);
   bool fresh = TRI_PREINTEGRATED != 2 || cut.per_cell == 0.0;
-  if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // the rest is hidden: one chunk
+  if (TRI_PREINTEGRATED == 2 && m.light.transmittance == 0.0) cut.left = 0.0;  // the remainder is hidden and becomes one chunk
 #if TRI_TRACE
   traced_front = m.front;
 #endif
