@@ -160,9 +160,9 @@ std::string_view name_of(Operation operation) {
     case Operation::colour:
       return "colour from the transfer function and shading";
     case Operation::length:
-      return "length that the sample covers";
+      return "ray length covered by the sample";
     case Operation::opacity:
-      return "opacity for this length";
+      return "opacity for this ray length";
     case Operation::compositing:
       return "compositing";
   }

@@ -65,9 +65,9 @@ TEST_F(Compare, TooMuchNoiseGivesNoVerdictButAdvice) {
   const Result result = compare(b_as(1, much), "", much);
   expect_verdict(result, 2, "undecided");
   EXPECT_NE(result.output.find("384 blocks"), std::string::npos) << result.output;
-  EXPECT_NE(
-      result.output.find("to reach a verdict: triptych compare volume/quick --a null:scripted"),
-      std::string::npos)
+  EXPECT_NE(result.output.find(
+                "to reach a verdict, run: triptych compare volume/quick --a null:scripted"),
+            std::string::npos)
       << result.output;
 }
 

@@ -61,7 +61,7 @@ TEST(Reduce, TheFolderContainsEverythingForABugReport) {
   EXPECT_THAT(text, HasSubstr("triptych render volume --device null:scripted"));
   EXPECT_THAT(
       text,
-      HasSubstr("With a simpler level of any factor, the frame no longer fails in this way."));
+      HasSubstr("If any factor is simplified further, the frame no longer fails in this way."));
   EXPECT_THAT(program.read("r/frame.json"), HasSubstr("transfer_function"));
   EXPECT_FALSE(std::filesystem::exists(program.folder() / "r/.reduce.sqlite"));
   const Result again = program.run(last_command(result.output), failing("crash", "none"));

@@ -40,7 +40,7 @@ TEST_F(ReportTest, EveryChartIsDrawn) {
   measure(std::string("volume/accuracy") + small_scene);
   const std::string page = report();
   EXPECT_THAT(page, HasSubstr("RMSE against the limit"));
-  EXPECT_THAT(page, HasSubstr("time of a frame, ms"));
+  EXPECT_THAT(page, HasSubstr("frame time, ms"));
   for (auto at = page.find("<svg class=\"figure\""); at != std::string::npos;
        at = page.find("<svg class=\"figure\"", at + 1)) {
     // The marks are inside a nested SVG element.

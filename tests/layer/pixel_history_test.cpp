@@ -60,7 +60,7 @@ TEST_P(PixelHistories, NameTheFaultyOperation) {
   const std::vector<std::pair<std::string, std::string>> faults{
       {"--inject half_voxel_shift", "interpolated value"},
       {"--inject coarse_filter", "interpolated value"},
-      {"--inject uncorrected_opacity", "length that the sample covers"}};
+      {"--inject uncorrected_opacity", "ray length covered by the sample"}};
   for (const auto& [fault, operation] : faults) {
     const Traced traced = trace(fault + " --set sampler=manual --set step=0.5");
     EXPECT_EQ(traced.code, 1) << fault;

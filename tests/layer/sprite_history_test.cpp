@@ -42,7 +42,7 @@ TEST_P(SpriteHistories, ShowNoDifferenceOnACorrectDevice) {
 TEST_P(SpriteHistories, FindTheSpheresThatAreWrongTogether) {
   const test::Result result = trace("--set technique=quad_instanced --inject reversed_depth");
   EXPECT_EQ(result.code, 1);
-  EXPECT_THAT(result.output, HasSubstr("with these 2 particles together"));
+  EXPECT_THAT(result.output, HasSubstr("when these 2 spheres are drawn together"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, SpriteHistories,

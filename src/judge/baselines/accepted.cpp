@@ -100,8 +100,8 @@ void refuse_other_data(const Accepted& accepted, const AcceptRequest& request) {
     const std::string now = request.data_hash(record);
     if (now.empty() || now == record.data_hash) continue;
     throw core::InputError(fmt::format(
-        "the data of {} have changed since run {} (content hash {}, now {}); restore the data, or "
-        "measure again",
+        "the input data of {} have changed since run {} (content hash {}, now {}); restore the "
+        "data, or measure again",
         record.configuration, record.run, record.data_hash, now));
   }
 }

@@ -144,8 +144,8 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
       const bool loses = !accepted.replaces_all && file.contains("configurations");
       if (counted || loses) {
         throw core::InputError(
-            fmt::format("run {}: instructions on {} were counted by {} and by {}{}", record.run,
-                        device.id, file.value("counted_by", ""), record.counted_by,
+            fmt::format("run {}: the instruction counts for {} come from {} and from {}{}",
+                        record.run, device.id, file.value("counted_by", ""), record.counted_by,
                         counted ? "" : "; accept the whole plan, without --only"));
       }
       file = {{"device", device.id},

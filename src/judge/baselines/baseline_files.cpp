@@ -86,7 +86,7 @@ StoredImage read_stored_image(const core::JsonNode& node) {
 StoredCounters read_counters(const core::JsonNode& node) {
   return read_members<record::Counts>(node, [](const core::JsonNode& by_device) {
     record::Counts counts = read_counts(by_device);
-    if (counts.empty()) by_device.fail("expected the value of at least one device");
+    if (counts.empty()) by_device.fail("expected a value for at least one device");
     return counts;
   });
 }

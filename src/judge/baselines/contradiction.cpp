@@ -70,13 +70,15 @@ std::string unknown_driver(const fs::path& folder, const Manifest& manifest) {
   }
   for (const std::set<std::string>& machine : manifest.machines) {
     for (const std::string& driver : machine) {
-      if (!drivers.contains(driver)) return lacks("the driver of a machine, " + driver);
+      if (!drivers.contains(driver))
+        return lacks("the driver " + driver + " for any device, but lists it for a machine");
     }
   }
   if (const auto lacking = core::JsonFile::read(folder / Layout::lacking)) {
     for (const auto& [driver, configurations] : lacking->root().members()) {
       if (!drivers.contains(driver)) {
-        return lacks(fmt::format("the driver {}, which {} contains", driver, Layout::lacking));
+        return lacks(
+            fmt::format("the driver {}, although {} contains it", driver, Layout::lacking));
       }
     }
   }
@@ -87,7 +89,7 @@ std::string unknown_device(const Manifest& manifest, const std::set<std::string>
                            const char* file) {
   for (const std::string& id : devices) {
     if (!manifest.devices.contains(id)) {
-      return lacks(fmt::format("the device {}, which {} contains", id, file));
+      return lacks(fmt::format("the device {}, although {} contains it", id, file));
     }
   }
   return {};
@@ -128,8 +130,9 @@ std::string contradiction_in(const fs::path& folder, const Manifest& manifest) {
   look(unknown_device(manifest, devices_of(folder / Layout::memory), Layout::memory));
   look(lost_check(folder, manifest));
   if (counted.configurations != manifest.configurations) {
-    look(fmt::format("{} states {} configurations, but {} contains {}", Layout::manifest,
-                     manifest.configurations, Layout::counters, counted.configurations));
+    look(fmt::format("{} gives the number of configurations as {}, but {} contains {}",
+                     Layout::manifest, manifest.configurations, Layout::counters,
+                     counted.configurations));
   }
   look(other_statements(folder));
   return found;

@@ -73,8 +73,8 @@ void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& toda
   const auto days = days_between(today, expiry.text());
   if (!days || *days <= most) return;  // expiry_of() reports a value that is not a date
   expiry.fail(
-      fmt::format("is more than {} days after {}; choose an earlier date, on which somebody "
-                  "reviews whether the entry is still needed",
+      fmt::format("is more than {} days after {}; choose an earlier date by which somebody "
+                  "will review whether the entry is still needed",
                   most, today));
 }
 

@@ -44,8 +44,8 @@ constexpr std::array files{
          "floats)"},
     File{
         "difference.png",
-        "the error as a share of the pixel's bound: black is no error, white is the bound, cyan is "
-        "beyond it"},
+        "the error relative to the error bound of each pixel: black means no error, white means an "
+        "error equal to the bound, and cyan means a larger error"},
     File{"dump",
          "everything that the driver receives: device code, options and buffers; for some "
          "techniques, also a C program that draws the frame; `compile.sh` compiles the device "
@@ -87,7 +87,7 @@ std::string markdown(const BugReport& report) {
                       markdown_escaped(text_of(report.changes)));
   text +=
       report.complete
-          ? "With a simpler level of any factor, the frame no longer fails in this way.\n"
+          ? "If any factor is simplified further, the frame no longer fails in this way.\n"
           : "The search reached the maximum number of frames, so a simpler frame may also fail.\n";
   return text;
 }

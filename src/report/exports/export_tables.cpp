@@ -79,7 +79,7 @@ Columns<SampleSource> sample_columns() {
       {{"record", "integer", "", numbers}, [](const SampleSource& s) { return s.record; }},
       {{"clock", "text", "", "the clock: wall or device"},
        [](const SampleSource& s) { return std::string(s.clock); }},
-      {{"frame", "integer", "", "0-based number of the frame"},
+      {{"frame", "integer", "", "zero-based index of the frame"},
        [](const SampleSource& s) { return s.frame; }},
       {{"time_ns", "number", "ns", "time of the frame"},
        [](const SampleSource& s) { return s.ns; }},
@@ -101,7 +101,7 @@ Columns<ValueSource> cost_columns() {
       {{"of", "text", "", "what was counted: frame, or prepare (data, pipelines and upload)"},
        [](const ValueSource& s) { return std::string(s.of); }},
       {{"part", "text", "",
-        "group of instructions (device_code, driver, libc, program), or allocations, or misses"},
+        "a group of instructions (device_code, driver, libc or program), allocations, or misses"},
        [](const ValueSource& s) { return s.name; }},
       {{"unit", "text", "", "unit of the count"},
        [](const ValueSource& s) { return cost_unit(s.name); }},
@@ -142,8 +142,8 @@ Columns<ErrorSource> error_columns() {
        [](const ErrorSource& s) { return s.error.against; }},
       {{"metric", "text", "",
         "rms: root mean square over all pixels and channels; covered: root mean square over the "
-        "pixels that are not empty in the reference or limit image; p99.9: percentile over the "
-        "pixels; max: largest error"},
+        "pixels that are not empty in the reference or limit image; p99.9: 99.9th percentile of "
+        "the pixel errors; max: largest pixel error"},
        [](const ErrorSource& s) { return s.error.metric; }},
       {{"error", "number", "full scale", "difference of linear colour values; white is 1"},
        [](const ErrorSource& s) { return s.error.error; }},
@@ -176,10 +176,11 @@ class Tables {
         records_(folder, "records", "one configuration on one device in one run per row",
                  record_columns(names)),
         samples_(folder, "samples", "one timed frame on one clock per row", sample_columns()),
-        counters_(folder, "counters", "one of Triptych's counters per row",
-                  value_columns("count in one frame, by Triptych's device code")),
+        counters_(
+            folder, "counters", "one of Triptych's counters per row",
+            value_columns("number of events in one frame, counted by Triptych's device code")),
         statistics_(folder, "statistics", "one pipeline statistic per row",
-                    value_columns("count in one frame, by the driver")),
+                    value_columns("number of events in one frame, counted by the driver")),
         cost_(folder, "cost", "one part of a record's cost per row", cost_columns()),
         code_(folder, "code", "one statistic of one executable per row", code_columns()),
         energy_(folder, "energy", "one energy meter of a record per row", energy_columns()),
@@ -268,10 +269,10 @@ std::vector<RunInStore> runs_of(const std::vector<const Store*>& stores, const s
       if (!plan.empty() && run.plan != plan) continue;
       const auto [at, fresh] = stores_of.emplace(run.id, store->file().string());
       if (!fresh) {
-        throw core::InputError(
-            fmt::format("run {} is in {} and in {}, so its records would be counted twice; export "
-                        "only one of these stores",
-                        run.id, at->second, store->file().string()));
+        throw core::InputError(fmt::format(
+            "run {} is in both {} and {}, so its records would be counted twice; export "
+            "only one of these stores",
+            run.id, at->second, store->file().string()));
       }
       runs.push_back({store, std::move(run)});
     }

@@ -22,7 +22,7 @@ struct CostAxis {
 CostAxis axis_of(Cost cost) {
   switch (cost) {
     case Cost::time:
-      return {"time of a frame, ms", "ms"};
+      return {"frame time, ms", "ms"};
     case Cost::samples:
       return {"samples taken", "samples"};
     case Cost::instructions:
@@ -30,9 +30,9 @@ CostAxis axis_of(Cost cost) {
     case Cost::fetched:
       return {"cache misses, MiB", "MiB"};
     case Cost::memory:
-      return {"memory on the device, MiB", "MiB"};
+      return {"device memory, MiB", "MiB"};
     case Cost::energy:
-      return {"energy of a frame, J", "J"};
+      return {"energy per frame, J", "J"};
   }
   return {};
 }

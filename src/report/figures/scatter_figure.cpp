@@ -54,7 +54,7 @@ class Scatter {
     add_rule(figure, 0, {.colour = "soft"});
     if (scatter_.shows_from) {
       add_rule(figure, *scatter_.shows_from, {.colour = "soft", .dashed = true});
-      figure.label({ends().first, *scatter_.shows_from}, "reported from here on");
+      figure.label({ends().first, *scatter_.shows_from}, "reporting threshold");
     }
     for (const auto& point : scatter_.points) {
       figure.series(point.technique.empty() ? "configurations" : point.technique);

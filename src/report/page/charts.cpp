@@ -44,9 +44,8 @@ std::vector<ChartScene> scenes_of(const PlanData& plan) {
 Html figure_of(const ChartScene& scene, const std::vector<std::string>& techniques) {
   Axis up;
   for (const Row& row : scene.rows) up.names.push_back(row.device + " " + row.technique);
-  Figure figure("Frame times: " + scene.title,
-                {.title = "time of a frame, ms", .logarithmic = true}, up, 180,
-                18 * static_cast<double>(scene.rows.size()));
+  Figure figure("Frame times: " + scene.title, {.title = "frame time, ms", .logarithmic = true}, up,
+                180, 18 * static_cast<double>(scene.rows.size()));
   for (std::size_t i = 0; i < scene.rows.size(); ++i) {
     const Row& row = scene.rows[i];
     const auto place = static_cast<double>(i);

@@ -23,7 +23,8 @@ std::string error_text(double error) {
 
 std::string order_text(const std::optional<Order>& order) {
   if (!order) return "";
-  return fmt::format("{:.2f} ± {:.2f} ({} steps)", order->order, order->half_width, order->points);
+  return fmt::format("{:.2f} ± {:.2f} ({} step sizes)", order->order, order->half_width,
+                     order->points);
 }
 
 std::string time_text(const accuracy::AccuracyCase& each) {
@@ -136,10 +137,10 @@ class Parts {
 
   void append() {
     const accuracy::AccuracyCase& least = scene_.cases[accuracy::most_accurate(scene_.cases)];
-    add("the most accurate: " + least.configuration, "", least.rmse, error_text(least.largest),
-        time_text(least));
-    if (least.factors.contains("step")) add("part due to the step size", "", least.lattice);
-    add("part due to rounding, storage and early ray termination", "", least.arithmetic);
+    add("most accurate configuration: " + least.configuration, "", least.rmse,
+        error_text(least.largest), time_text(least));
+    if (least.factors.contains("step")) add("error due to the step size", "", least.lattice);
+    add("error due to rounding, storage and early ray termination", "", least.arithmetic);
     for (const accuracy::Switched& each : accuracy::switched_alone(scene_.cases)) {
       add(each, scene_.cases[each.to], "");
     }

@@ -138,9 +138,9 @@ Html disassembly_of(const record::Store& store, const judge::Finding& finding,
   }
   if (!html.empty()) return html;
   return markup(
-      "<p>The store contains no earlier disassembly of this configuration. To see both, compare "
-      "with the previous build: <code>triptych gate --base PROGRAM</code>. Or run the plan with "
-      "that build first, with the same store.</p>");
+      "<p>The store contains no earlier disassembly of this configuration. To see the old and the "
+      "new disassembly, compare with the previous build (<code>triptych gate --base "
+      "PROGRAM</code>), or first run the plan with the previous build and the same store.</p>");
 }
 
 Html changed_code(const record::Store& store, const PlanData& plan) {

@@ -62,7 +62,7 @@ Html needed_section(const PlanData& plan) {
                     fmt::format("{:.3f}", share), fmt::format("{}", fmt::join(names, ", "))});
   }
   return folded(
-      "Skipping: the work that was done, and the work that contributes to the image",
+      "Skipping: total work, and the work that contributes to the image",
       markup(
           "<p>{}.</p>",
           volume

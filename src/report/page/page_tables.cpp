@@ -90,7 +90,7 @@ Html devices_section(const PlanData& plan) {
                     device.api_version});
     witnesses.push_back({device.id, clock_text(clocks), calibration_text(device), environment});
   }
-  return folded("Devices: drivers, calibration of their clocks and statistics, environment",
+  return folded("Devices: drivers, calibration of clocks and statistics, environment variables",
                 table(rows) + table(witnesses));
 }
 
@@ -140,7 +140,7 @@ Html speed_of_light_section(const PlanData& plan) {
   }
   if (rows.size() == 1) return {};
   return folded(
-      "Speed of light: times relative to the memory fetches alone",
+      "Speed of light: frame times relative to the time of the memory fetches alone",
       markup(
           "<p>The speed of light is the time for the same fetches and transfer-function look-ups "
           "without any other work. It uses the same empty-space skipping, but no early ray "

@@ -319,7 +319,7 @@ Html words_section(const Overview& all) {
               "docs/accuracy.md"},
       Meaning{"stored", "accepted with `triptych accept`", "docs/baselines.md"},
       Meaning{"device key",
-              "identifies everything that affects times or the exact pixel values of images",
+              "identifies all properties of the device that affect timings or exact pixel values",
               "docs/glossary.md"},
   };
   Rows rows{{"term", "meaning", "documentation"}};

@@ -67,7 +67,7 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
   constexpr const char* indented = "\n              ";
   if (!compared.reason.empty()) line += indented + words::text_of(compared.reason);
   if (compared.has_time() && compared.verdict == comparison::PairVerdict::undecided) {
-    line += "; to reach a verdict: " + command_for(compared, command);
+    line += "; to reach a verdict, run: " + command_for(compared, command);
   }
   if (const std::string work = work_of(compared); !work.empty()) line += indented + work;
   return line + "\n";
@@ -91,7 +91,7 @@ std::string clocks_of(const ComparisonResult& result) {
   causes.erase(comparison::WallClockCause::none);
   std::string text;
   for (const auto& [cause, count] : causes) {
-    text += fmt::format("in {} configurations, the wall clock was used, because {}\n", count,
+    text += fmt::format("the wall clock was used in {} configurations, because {}\n", count,
                         words::text_of(cause));
   }
   return text;

@@ -82,7 +82,7 @@ std::string bounds_text(std::vector<WideBound> bounds) {
 std::string coverage_text(const std::map<std::string, Coverage>& coverage) {
   std::string text;
   for (const auto& [device, covered] : coverage) {
-    text += fmt::format("{}: {} configurations were drawn, with these levels:\n", device,
+    text += fmt::format("{}: {} configurations were rendered; levels of each factor:\n", device,
                         covered.configurations);
     for (const auto& [factor, levels] : covered.levels) {
       text += fmt::format("  {:<30}{}\n", factor, fmt::join(levels, ", "));

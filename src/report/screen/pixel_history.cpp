@@ -118,7 +118,7 @@ std::string quiet_line(std::int64_t first, std::int64_t last, std::size_t taken,
       first == last ? std::to_string(first) : fmt::format("{}–{}", first, last);
   return fmt::format("{:>7} {}", which,
                      taken == count ? "without opacity"
-                     : taken == 0   ? "not taken, but without effect on the image"
+                     : taken == 0   ? "not taken, which does not affect the image"
                                     : fmt::format("without opacity, {} of {} taken", taken, count));
 }
 
@@ -245,11 +245,11 @@ std::string about_fewest(const accuracy::SpriteHistory& history) {
   }
   if (count > most_named) ids += ", …";
   return fmt::format(
-      "each sphere alone is correct, but the pixel is wrong ({}) with these {} particles "
-      "together{}: "
-      "{}",
+      "each sphere is correct when drawn alone, but the pixel is wrong ({}) when these {} spheres "
+      "are drawn together{}: {}",
       accuracy::name_of(history.fewest_differs), count,
-      history.stopped_early ? ", perhaps with fewer" : ", and correct if any of them is left out",
+      history.stopped_early ? " (and perhaps when fewer are drawn)"
+                            : " (but correct if any of them is left out)",
       ids);
 }
 

@@ -38,7 +38,7 @@ struct TracedSample {
   float value = 0;                  // normalised value; for a step, the value at its end
   float front = 0;                  // for a step, the value at its beginning
   std::array<float, 4> colour{};    // not premultiplied, after shading; opacity per voxel length
-  float length = 0;                 // length that the sample covers, in voxel lengths
+  float length = 0;                 // ray length covered by the sample, in voxel lengths
   float opacity = 0;                // opacity of that length
   float transmittance = 0;          // transmittance after the sample
   std::array<float, 3> gathered{};  // premultiplied colour after the sample

@@ -238,7 +238,7 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   EXPECT_THAT(changed([](core::Json& json) { json["files"]["../x"] = "0"; }),
               HasSubstr("is outside the folder"));
   EXPECT_THAT(changed([](core::Json& json) { json["configurations"] = 3; }),
-              HasSubstr("states 3 configurations, but counters.json contains 4"));
+              HasSubstr("gives the number of configurations as 3, but counters.json contains 4"));
   // No other file contains this information, so the history contains its hash.
   for (const char* name : {"plan_hash", "checks"}) {
     EXPECT_THAT(changed([&](core::Json& json) { json[name] = "memory"; }),
@@ -258,7 +258,7 @@ TEST_F(AsBegunTest, AConfigurationLostFromTheBaselinesIsReported) {
   counters.erase(plain_);
   rewrite("counters.json", counters.dump(1));
   EXPECT_THAT(Baselines(folder_.path() / "baselines", plan).problem(),
-              HasSubstr("states 4 configurations, but counters.json contains 3"));
+              HasSubstr("gives the number of configurations as 4, but counters.json contains 3"));
 }
 
 // If a later run failed before it began, the latest run in the store is an older one. The fixture's

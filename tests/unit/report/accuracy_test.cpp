@@ -82,13 +82,13 @@ TEST(AccuracySection, ShowsOrdersTimesAndParts) {
   EXPECT_TRUE(accuracy_section(plan).empty());
   verdict.accuracies = {some_scene()};
   const std::string text = accuracy_section(plan).text();
-  EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 steps)"));
+  EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 step sizes)"));
   EXPECT_THAT(text, HasSubstr("ball &lt;1&gt;"));
   EXPECT_THAT(text, HasSubstr("1 of 5"));  // the number of dominated cases
   EXPECT_THAT(text, HasSubstr("step 0.125 → 0.25"));
-  EXPECT_THAT(text, HasSubstr("time of a frame, ms"));
-  EXPECT_THAT(text, HasSubstr("memory on the device, MiB"));
-  EXPECT_THAT(text, HasSubstr("energy of a frame, J"));
+  EXPECT_THAT(text, HasSubstr("frame time, ms"));
+  EXPECT_THAT(text, HasSubstr("device memory, MiB"));
+  EXPECT_THAT(text, HasSubstr("energy per frame, J"));
   EXPECT_THAT(text, HasSubstr("instructions, millions"));
   EXPECT_THAT(text, HasSubstr("cache misses, MiB"));
 }
@@ -98,7 +98,7 @@ TEST(AccuracySection, ShowsInstructionsIfThereAreNoTimes) {
   const std::string text = untimed_section();
   EXPECT_THAT(text, HasSubstr("1.0 M instructions"));  // the cost of an RMSE of 1/255
   EXPECT_THAT(text, HasSubstr("3.2 M instructions"));  // the cost of an RMSE of 1e-4, interpolated
-  EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));
+  EXPECT_THAT(text, testing::Not(HasSubstr("frame time, ms")));
 }
 
 TEST(AccuracySection, RanksByInstructionsIfThereAreNoTimes) {
@@ -144,8 +144,8 @@ TEST(AccuracySection, DistinguishesImageSizesOfTheSameData) {
 
 TEST(AccuracySection, ShowsOnlyErrorsWithoutTimes) {
   const std::string text = untimed_section();
-  EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 steps)"));
-  EXPECT_THAT(text, testing::Not(HasSubstr("time of a frame, ms")));
+  EXPECT_THAT(text, HasSubstr("2.00 ± 0.00 (3 step sizes)"));
+  EXPECT_THAT(text, testing::Not(HasSubstr("frame time, ms")));
   EXPECT_THAT(text, testing::Not(HasSubstr("not reached")));
 }
 
