@@ -65,10 +65,11 @@ inline constexpr const char* standard_store = "triptych.sqlite";
 inline constexpr auto bisect_skips = static_cast<core::ExitCode>(125);
 
 // Adds --baselines. An empty name is rejected, because it would mean the current folder.
-void add_baselines_option(CLI::App& command, std::string& folder,
-                          const std::string& help =
-                              "Folder with the baselines (default: ./baselines if it exists, else "
-                              "the installed baselines)");
+void add_baselines_option(
+    CLI::App& command, std::string& folder,
+    const std::string& help =
+        "Read the baselines from this folder (default: ./baselines if it exists, else "
+        "the installed baselines)");
 
 // Adds --device for commands that read stored records. The option selects among the devices that
 // have been measured.

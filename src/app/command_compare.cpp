@@ -106,7 +106,7 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
 core::ExitCode compare(const CompareArguments& arguments) {
   if (arguments.apis) return show_apis(arguments);
   if (arguments.a.empty() || arguments.b.empty()) {
-    throw core::InputError("compare needs two sides: either --a and --b, or --apis and --store");
+    throw core::InputError("compare needs either two sides (--a and --b) or --apis with --store");
   }
   Comparing comparing = arguments.comparing;
   comparing.a = parse_side("--a", arguments.a, arguments.a_program);

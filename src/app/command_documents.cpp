@@ -83,8 +83,8 @@ std::string manual(const CLI::App& program) {
   std::string text = fmt::format(
       ".TH TRIPTYCH 1 \"\" \"triptych {}\"\n.SH NAME\ntriptych \\- test GPU drivers by comparing "
       "images, amount of work and cost\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... "
-      "[PLAN]...\n.SH DESCRIPTION\n{}.\n.PP\n.B triptych gate \\-\\-measure\nmeasures and judges every device of "
-      "this machine.\n.SH COMMANDS\n",
+      "[PLAN]...\n.SH DESCRIPTION\n{}.\n.PP\n.B triptych gate \\-\\-measure\nmeasures and judges "
+      "every device of this machine.\n.SH COMMANDS\n",
       roff(version()), roff(program.get_description()));
   for (const CLI::App* command : shown_commands(program)) text += section(*command);
   text += fmt::format(".SH EXIT STATUS\n{}\n", roff(program.get_footer()));

@@ -120,7 +120,7 @@ void add_export_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "export", "Export stores as CSV tables, with a dictionary of the columns", write_tables);
   command.add_option("STORE", arguments.stores, "Stores to export (SQLite files)")->required();
-  command.add_option("--out", arguments.out, "Folder for the CSV files")->required();
+  command.add_option("--out", arguments.out, "Write the CSV files to this folder")->required();
   command.add_option("--plan", arguments.plan,
                      "Export only this plan, named as in the `run` command: SUITE/PLAN or a YAML "
                      "file (default: all plans)");

@@ -308,7 +308,7 @@ core::ExitCode accept(const AcceptArguments& arguments) {
 
 void add_accept_command(Commands& commands) {
   auto [command, arguments] =
-      commands.add("accept", "Make the latest run of each plan its new baseline", accept);
+      commands.add("accept", "Accept the latest run of each plan as the new baseline", accept);
   add_example(command,
               "triptych accept volume/quick --store results.sqlite --reason 'new driver version'");
   command.add_option("PLAN", arguments.plans,
@@ -323,7 +323,7 @@ void add_accept_command(Commands& commands) {
                    "Also remove the baselines of configurations that are missing from the run, and "
                    "discard baseline files that were edited after they were accepted; with --only, "
                    "remove the baselines of matching configurations that a device now skips");
-  command.add_option("--store", arguments.store, "SQLite file with the records")
+  command.add_option("--store", arguments.store, "SQLite file that contains the results")
       ->capture_default_str();
   add_baselines_option(command, arguments.baselines,
                        "Write the baselines to this folder (default: ./baselines; if it does not "
@@ -343,7 +343,10 @@ void add_gate_commands(Commands& commands) {
           fmt::join(gate_job(), " ")));
   add_choice_options(command, arguments.choice);
   command.add_flag("--measure", arguments.measure, "Measure the plans before judging them");
-  command.add_option("--store", arguments.store, "SQLite file with the records")
+  command
+      .add_option(
+          "--store", arguments.store,
+          "SQLite file that contains the results; with --measure, new results are added to it")
       ->capture_default_str();
   add_baselines_option(command, arguments.baselines);
   command
@@ -364,20 +367,19 @@ void add_gate_commands(Commands& commands) {
                      "matches this glob (repeatable)");
   command.add_option(
       "--without-device", arguments.without_devices,
-      "Accept that devices that match this glob are missing on this machine, and that device "
-      "enumeration fails for APIs that match it (repeatable; see docs/gate.md)");
+      "Do not report devices that match this glob as missing on this machine, and ignore failed "
+      "device enumeration for APIs that match it (repeatable; see docs/gate.md)");
   add_without_data_option(command, arguments.without_data);
   command.add_flag("--times", arguments.times,
                    "Let frame times affect the verdict (only for dedicated benchmarking machines)");
   CLI::Option* base =
       command.add_option("--base", arguments.base,
-                         "PROGRAM or NAME=VALUE,…: instead of using baselines, compare each device "
-                         "with the same device in another triptych build (the executable PROGRAM), "
-                         "or under the driver that these environment variables select");
-  command.add_option(
-      "--out", arguments.out,
-      "Folder for report.html, gate.log, summary.md, benchmark.json and one JUnit XML file per "
-      "plan");
+                         "PROGRAM or NAME=VALUE,…: do not use baselines; compare each device with "
+                         "itself, measured by another triptych build (PROGRAM) or with another "
+                         "driver (selected by these environment variables)");
+  command.add_option("--out", arguments.out,
+                     "Write report.html, gate.log, summary.md, benchmark.json and one JUnit XML "
+                     "file per plan to this folder");
   command.add_option("--junit", arguments.junit,
                      "Write a JUnit XML report for all plans to this file");
   command.add_option("--markdown", arguments.markdown, "Write a Markdown summary to this file");

@@ -130,7 +130,7 @@ core::ExitCode merge(const MergeArguments& arguments) {
   // contain the configuration.
   if (!gaps.empty()) {
     put_lines(gaps);
-    put("These records are also missing from {} unless another store contains them\n",
+    put("The records listed above are also missing from {} unless another store contains them\n",
         arguments.out);
   }
   return core::ExitCode::pass;

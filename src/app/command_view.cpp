@@ -105,7 +105,7 @@ core::ExitCode view(const ViewArguments& arguments) {
   const auto [suite, plan] = choose_data(registry, arguments.frame);
   if (!plan.automatic.empty()) {
     throw core::InputError(
-        "technique=auto is not possible, because the window shows one technique at a time; name a "
+        "technique=auto cannot be used, because the window shows one technique at a time; name a "
         "technique");
   }
   for (const auto& each : measure::parse_faults(arguments.frame.faults)) {
@@ -155,9 +155,10 @@ void add_view_command(Commands& commands) {
   add_limit_option(command, arguments.limit_s, "a frame");
   command.add_option("--size", arguments.size, "Size of the window in pixels")
       ->capture_default_str();
-  command.add_option("--screenshot", arguments.screenshot,
-                     "Wait until every device has drawn, save a screenshot of the window as a PNG "
-                     "image to this file, and exit");
+  command.add_option(
+      "--screenshot", arguments.screenshot,
+      "Wait until every device has drawn its image, save a screenshot of the window as a PNG "
+      "image to this file, and exit");
   command.add_flag("--json", arguments.json,
                    "Print the displayed results as JSON when the window is closed");
   add_example(command,

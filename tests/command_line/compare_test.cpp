@@ -166,7 +166,7 @@ TEST_F(Compare, SideBySideNeedsAStoreWithTwoDevices) {
   const std::string run = fmt::format("run volume/quick {} --store s.sqlite", tiny);
   ASSERT_EQ(program.run(run, script(1, 1)).code, 0);
   expect_verdict(program.run("compare --apis --store s.sqlite"), 2, "on more than one device");
-  expect_verdict(program.run("compare volume/quick"), 3, "needs two sides");
+  expect_verdict(program.run("compare volume/quick"), 3, "needs either two sides");
 }
 
 // Each side is stored as its own run.
