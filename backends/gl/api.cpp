@@ -72,7 +72,8 @@ void Api::only_compile() {
 
 void Api::keep_reports() const {
   if (!messages_) return;
-  // Drivers report generated code with a severity that is disabled by default.
+  // The messages in which drivers report generated code have a severity that is disabled by
+  // default.
   if (DebugMessageControl != nullptr) {
     DebugMessageControl(GL_DONT_CARE, GL_DONT_CARE, GL_DONT_CARE, 0, nullptr, GL_TRUE);
   }

@@ -21,20 +21,21 @@ struct Api : GladGLContext {
   // Throws core::NotSupported if a function of GL 3.3 is missing.
   explicit Api(GLADloadfunc load);
 
-  // From now on, check() also reports the driver's error messages. Needs KHR_debug (GL 4.3).
+  // Makes check() also report the error messages that the driver sends from now on. Needs KHR_debug
+  // (GL 4.3).
   void collect_messages();
 
-  // From now on, labels are passed to the driver if it supports them (KHR_debug).
+  // Enables labels if the driver supports them (KHR_debug).
   void label_all() { labelled = PushDebugGroup != nullptr && ObjectLabel != nullptr; }
 
-  // Prepares the context of a device that only compiles. From now on, calls that would execute
-  // something on the device throw core::NotSupported, and no data are uploaded. Objects are still
-  // created, so that programs can be linked.
+  // Prepares the context for a device that only compiles. After this call, functions that would
+  // execute work on the device throw core::NotSupported, and no data are uploaded. Objects are
+  // still created, so that programs can be linked.
   void only_compile();
   [[nodiscard]] bool executes() const { return executes_; }
 
-  // Drivers report the code that they generate in messages that they send while a program is
-  // linked. A Report is such a message, with the stages of the program.
+  // While a program is linked, drivers send messages about the code that they generate for it. A
+  // Report is one of these messages, together with the stages of the program.
   struct LinkedStage {
     GLenum type = 0;
     std::string name;
@@ -80,11 +81,11 @@ struct Api : GladGLContext {
   };
   static void GLAD_API_PTR on_message(GLenum source, GLenum type, GLuint id, GLenum severity,
                                       GLsizei length, const GLchar* message, const void* user);
-  std::unique_ptr<Messages> messages_;  // the driver stores its address
+  std::unique_ptr<Messages> messages_;  // on the heap, because the driver stores its address
   bool executes_ = true;
 };
 
-// Groups the GL calls made during the lifetime of this object under a name that debuggers and
+// While an object of this class exists, all GL calls belong to a named group that debuggers and
 // profilers display. Does nothing if names were not requested.
 class Label {
  public:

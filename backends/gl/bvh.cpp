@@ -222,7 +222,8 @@ void BvhDrawing::send(const Api& gl, const Program& trace, GLuint stride, GLuint
       {stride, grid_.columns, grid_.beams(), flags});
 }
 
-// The camera does not move, so every frame needs as many dispatches as the first frame.
+// Builds the hierarchy, and counts the dispatches that tracing needs. Because the camera does not
+// move, every frame needs the same number.
 void BvhDrawing::build(const Api& gl) {
   bind_data(gl);
   sort(gl);

@@ -11,15 +11,16 @@ namespace triptych::gl_backend {
 // its cell, unless cull.comp.glsl found that the cell is out of sight.
 class CellDraws {
  public:
-  // `instanced`: draw each particle of a cell as an instance with four vertices, rather than as one
-  // vertex.
+  // If `instanced` is true, each particle of a cell is drawn as an instance with four vertices;
+  // otherwise as a single vertex.
   CellDraws(const Api& gl, std::span<const technique::Cell> cells, bool instanced);
 
   // Binds the cells to binding 6 and the commands to binding 7, and dispatches the current program,
   // which must be the culling program.
   void cull(const Api& gl) const;
   void draw(const Api& gl, GLenum mode) const;
-  // Makes every command draw nothing, so that a frame without culling shows nothing.
+  // Overwrites the commands so that they draw nothing. If a frame then fails to run the culling
+  // pass, its image is empty instead of showing the result of an earlier pass.
   void poison(const Api& gl) const;
 
  private:

@@ -95,7 +95,8 @@ class EglContext final : public Context {
   [[nodiscard]] bool computes_on_the_processor() const override {
     return egl_.is_software(display_);
   }
-  // The display is not terminated, because every other context on it in this process shares it.
+  // Does not terminate the display, because all contexts of this process on the same display share
+  // it.
   ~EglContext() override { egl_.destroy_context(display_, handle_); }
 
  private:

@@ -12,8 +12,8 @@ struct Answer {
 };
 
 // Runs `ask` in a child process, so that a library that `ask` loads can neither crash the caller
-// nor stay loaded in it. Kills the child if it has not finished after `limit`. Nothing that the
-// child does makes this function throw.
+// nor stay loaded in it. Kills the child if it has not finished after `limit`. A child that
+// crashes, hangs or returns garbage never makes this function throw.
 [[nodiscard]] Answer ask_in_child(const std::function<std::string()>& ask,
                                   std::chrono::milliseconds limit);
 

@@ -29,7 +29,7 @@ std::vector<technique::Cell> cells_with_large_points(const Api& gl,
                                                      const scene::ParticleScene& scene,
                                                      const technique::Arrangement& arrangement) {
   std::vector<technique::Cell> cells = arrangement.cells;
-  // A silhouette is clipped to the image, so it needs no point that is larger than the image.
+  // Silhouettes are clipped to the image, so a point never has to be larger than the image.
   const double largest = largest_point(gl);
   const bool all_small = std::max(scene.width, scene.height) + 4 <= largest;
   const double pixel = 2 * scene::tangent_of_half(scene.camera.fov_y_deg) / scene.height;

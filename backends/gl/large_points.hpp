@@ -13,7 +13,7 @@ namespace triptych::gl_backend {
 // Returns the size of the largest point that the device can draw, in pixels.
 [[nodiscard]] double largest_point(const Api& gl);
 
-// Returns the cells of the arrangement, but without the particles of cells in which every sphere
+// Returns the cells of the arrangement, with a particle count of 0 for cells in which every sphere
 // fits into the largest point. The second draw of `point` uses these cells. They stay valid because
 // the camera does not move.
 [[nodiscard]] std::vector<technique::Cell> cells_with_large_points(

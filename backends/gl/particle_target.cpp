@@ -45,8 +45,8 @@ void ParticleTarget::bind(const Api& gl) const {
   gl.DepthFunc(passes);
 }
 
-// Fills the depth buffer with a value that no frame leaves in any pixel: a frame clears the depth
-// to another value and then draws its own depths.
+// Fills the depth buffer with a value that remains in no pixel after a frame, because a frame
+// clears the depth to another value and then draws its own depths.
 void ParticleTarget::poison(const Api& gl) const {
   bind(gl);
   constexpr GLuint id = core::Image::no_particle - 1;

@@ -1,6 +1,6 @@
 #pragma once
-// How a volume technique runs its program, and where it stores its image. Only this differs between
-// raycast and raycast_fragment.
+// The parts in which raycast and raycast_fragment differ: how a volume technique runs its program,
+// and where it stores its image.
 
 #include <memory>
 #include <span>

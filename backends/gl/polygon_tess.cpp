@@ -15,7 +15,7 @@ Sprites polygon_tess_sprites(const Api& /*gl*/) {
 std::optional<std::string> polygon_tess_unsupported(const Api& gl,
                                                     const measure::ParticleWork& work) {
   const int corners = work.options.corners;
-  // The corners are distributed over the four edges of the patch outline. The longest edge gets a
+  // The corners are distributed over the four edges of the patch outline, so an edge gets at most a
   // quarter of them, rounded up.
   const std::int64_t most =
       has_tessellation(gl) ? 4 * gl.limit(GL_MAX_TESS_GEN_LEVEL) : std::int64_t{corners};

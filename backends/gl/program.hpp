@@ -18,9 +18,9 @@ struct Constants {
   bool trace = false;
   bool speed_of_light = false;
   int fault = 0;
-  int opacity_form = 0;   // technique::opacity_form for the step size
+  int opacity_form = 0;   // result of technique::opacity_form()
   int preintegrated = 0;  // technique::preintegration_form
-  bool cells = false;     // the technique has its own source code
+  bool cells = false;     // selects the source of the quadrature `cells`
   bool leaps = false;
   bool adapt = false;
   bool parts = false;      // draws the volume one technique::Part at a time
@@ -51,8 +51,9 @@ struct Stage {
 // source.
 [[nodiscard]] Stage plain_stage(const Api& gl, GLenum type, std::string_view main_file);
 
-// Compiles and links. Throws core::ApiError with the driver's log. If the context stores reports
-// (Api::keep_reports()), it also stores the driver's reports about the generated code.
+// Compiles and links the stages. Throws core::ApiError with the driver's log. If
+// Api::keep_reports() was called, the context also stores the driver's reports about the generated
+// code.
 [[nodiscard]] Program link(const Api& gl, std::span<const Stage> stages);
 
 }  // namespace triptych::gl_backend

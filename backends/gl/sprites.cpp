@@ -160,8 +160,8 @@ class SpriteDrawing final : public Drawing {
     ParticleCounters counters;
   };
 
-  // Draws a frame from the previous camera. This frame is not measured; it gives the first measured
-  // frame a previous frame.
+  // Draws a frame from the previous camera. This frame is not measured. It is drawn so that the
+  // first measured frame has a previous frame.
   void draw_before(const Api& gl, const measure::ParticleWork& work,
                    const technique::Arrangement& arrangement) {
     if (work.camera_before) data_.look_from(gl, work.before(), arrangement);
@@ -210,7 +210,8 @@ class SpriteDrawing final : public Drawing {
     return programs;
   }
 
-  // `pass` is 0, or 1 for the cells that occlusion culling finds visible after the first pass.
+  // `pass` selects the culling program: 0 before the first draw, and 1 for the cells that became
+  // visible afterwards.
   void draw(const Api& gl, const Programs& programs, const std::vector<CellDraws>& draws,
             std::size_t pass) const {
     if (options_.culling != Culling::none) {

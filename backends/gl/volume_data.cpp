@@ -169,8 +169,8 @@ void fill_buffer(const Api& gl, const Buffer& buffer, std::size_t size, const Fi
   gl.check("glBufferSubData");
 }
 
-// If no bricks are skipped, the buffer of bricks has a single word. The kernel is the same in both
-// cases, but never reads that word.
+// If no bricks are skipped, the brick buffer contains a single word. The kernel is compiled from
+// the same source as with skipping, but never reads that word.
 VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work,
                        const std::vector<technique::Part>& parts)
     : quadrature_(quadrature_buffer(gl, work.scene)),

@@ -67,9 +67,9 @@ class VolumeData {
   Buffer parameters_;
   std::optional<VolumeParts> parts_;
   Buffer pauses_;  // the states of the rays between two parts
-  // Textures of the voxels and of the transfer function. With the packed sampler, cells_ and table_
-  // are buffers that the shader reads through buffer textures, as it reads the bricks and the
-  // quadrature.
+  // The voxels and the transfer function are textures. With the packed sampler, they are stored in
+  // the buffers cells_ and table_, and the shader reads them, the bricks and the quadrature through
+  // buffer textures.
   Buffer cells_;
   Buffer table_;
   struct Seen {

@@ -127,7 +127,7 @@ class VolumeDrawing final : public Drawing {
     gl.BindBuffer(GL_COPY_READ_BUFFER, counting_->counters.get());
     gl.GetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(counters_size(pixels_)),
                         static_cast<GLsizeiptr>(records.size() * sizeof(GLuint)), records.data());
-    counting_.reset();  // the buffer of the timed program has no counters
+    counting_.reset();  // the next counting frame needs a program that does not trace
     return technique::read_ray_trace(records);
   }
 

@@ -123,8 +123,8 @@ class NullPrepared final : public measure::Prepared {
     return image;
   }
 
-  // If the script makes the failure happen once, it affects all frames until the work is prepared
-  // again.
+  // If the script limits the failure to one occurrence, it still affects all frames until the work
+  // is prepared again.
   [[nodiscard]] core::Image drawn_image() {
     core::Image image = picture(*script_, work_, subject_);
     failure_ = image_failure(*script_, subject_);
@@ -176,7 +176,8 @@ class NullDevice final : public measure::Device {
   }
 
   measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
-    // As on other devices, the default sampler may depend on whether one filtered value suffices.
+    // As with real backends, the default sampler depends on whether one filtered value per sample
+    // suffices.
     return {.voxel = volume.native,
             .sampler =
                 volume.filter_suffices ? technique::Sampler::manual : technique::Sampler::packed};

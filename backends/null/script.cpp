@@ -58,8 +58,8 @@ bool is_of_image(FailureKind kind) {
          kind == FailureKind::stale_image;
 }
 
-// Returns whether the failure happens. With `once`, it happens in the one process that creates the
-// file.
+// Returns whether the failure happens. A failure with `once` happens only in the process that
+// creates the file.
 bool happens(const Failure& failure) {
   if (failure.once.empty()) return true;
   const int file = ::open(failure.once.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);

@@ -160,7 +160,7 @@ Launch BvhFrames::trace(const RayPrograms& programs, cl_uint stride) const {
                      stride, boxes_, tree_spheres_, tree_order_, depths_, winners_, counters_);
 }
 
-// `again` is 0, or the stride of an injected slowdown.
+// `again` is the stride of the injected extra work, or 0 if there is none.
 std::vector<Launch> BvhFrames::picture(const RayPrograms& programs, cl_uint again) const {
   std::vector<Launch> launches;
   if (options_.structure == Structure::rebuilt) add_sort(programs, launches);

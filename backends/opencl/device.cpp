@@ -178,10 +178,10 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
 }
 
 // Unless the hardware sampler is exact, voxels are read from a buffer and interpolated in the
-// kernel. On PoCL 3.1 that is also nine times faster than the sampler (speed_of_light: 405 versus
-// 44 million samples per second on two cores). The voxel format is the volume's native format,
-// because u8, u16 and f32 are equally fast on PoCL as long as the volume fits into the caches (409,
-// 413 and 446 million samples per second at 128³), and larger volumes fit in smaller formats.
+// kernel. On PoCL 3.1, this is also nine times as fast as the sampler (speed_of_light: 405 versus
+// 44 million samples per second on two cores). Voxels are stored in the volume's native format:
+// PoCL reads u8, u16 and f32 equally fast from the caches (409, 413 and 446 million samples per
+// second at 128³), and the smaller formats let larger volumes fit into the caches.
 measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
   const scene::VoxelFormat native = volume.native;
   const measure::VolumePath hardware{native, Sampler::hardware};

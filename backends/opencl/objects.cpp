@@ -98,8 +98,8 @@ std::string code_name(cl_int code) {
 
 namespace {
 
-// Keeps the entry in the ledger until the driver destroys the object, which may be later than the
-// end of `object`, because others may hold references to it.
+// Keeps the entry in the ledger until the driver destroys the object. That may be later than the
+// destruction of `object`, because there may be other references to the same OpenCL object.
 void enter(cl::Memory& object, measure::MemoryLedger::Entry entry) {
   auto held = std::make_unique<measure::MemoryLedger::Entry>(std::move(entry));
   object.setDestructorCallback(
@@ -172,7 +172,7 @@ void write_buffer(const Session& session, const cl::Buffer& to, std::size_t offs
   if (measure::dump_folder())
     measure::write_dump("buffer", "bin", std::span(static_cast<const std::byte*>(from), bytes),
                         fmt::format("bytes {} to {} of a buffer", offset, offset + bytes));
-  if (!session.queue.executes()) return;  // otherwise the event would never be set
+  if (!session.queue.executes()) return;  // no command would set the event
   cl::Event event;
   checked(
       [&] { session.queue.enqueueWriteBuffer(to, CL_TRUE, offset, bytes, from, nullptr, &event); },

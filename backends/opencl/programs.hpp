@@ -23,7 +23,7 @@ struct Constants {
   bool trace = false;
   bool speed_of_light = false;
   int preintegrated = 0;  // technique::preintegration_form
-  bool cells = false;     // the technique has its own source code
+  bool cells = false;     // selects the source of the quadrature `cells`
   bool leaps = false;     // technique::Skip::distance
   bool adapt = false;
   bool parts = false;  // draws the volume one technique::Part at a time
@@ -57,8 +57,8 @@ class Programs {
   // Returns the content hash of the source and the options.
   [[nodiscard]] static std::string hash(const std::string& source, const std::string& options);
 
-  // From now on, records each requested program once, except programs that count. end_capture()
-  // returns the programs in the order in which they were requested.
+  // Starts a capture, which records each requested program once, except programs that count.
+  // end_capture() returns the recorded programs in the order in which they were requested.
   void start_capture();
   [[nodiscard]] std::vector<CapturedProgram> end_capture();
 

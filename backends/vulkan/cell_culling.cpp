@@ -50,7 +50,7 @@ CellCulling::CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cel
   }
 }
 
-// Overwrites the commands so that they draw nothing. With other values, the device might draw
+// Overwrites the commands so that they draw nothing. Arbitrary values could make the device draw
 // almost endlessly.
 void CellCulling::poison() const {
   if (builds_.empty()) return;

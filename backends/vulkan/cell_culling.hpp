@@ -18,8 +18,8 @@ enum class CullPass : std::uint8_t { view, seen_before, seen_now };
 // The pass that removes cells outside the view, and the draws of the remaining cells.
 class CellCulling {
  public:
-  // `instanced`: draw each particle of a cell as an instance with four vertices, rather than as one
-  // vertex. `layout` contains particle_bindings() and commands_binding.
+  // If `instanced` is true, each particle of a cell is drawn as an instance with four vertices;
+  // otherwise as a single vertex. `layout` contains particle_bindings() and commands_binding.
   CellCulling(const Gpu& gpu, const Layout& layout, std::uint32_t cells, bool instanced,
               technique::Culling culling, const Specialization& constants);
 

@@ -5,7 +5,7 @@
 
 namespace triptych::vulkan_backend {
 
-// Returns the pipeline statistics that are meaningful for such a draw.
+// Returns the pipeline statistics that are meaningful for a draw into a single colour image.
 [[nodiscard]] vk::QueryPipelineStatisticFlags draw_statistics();
 
 // `begins` defines whether the pass begins with zeros (eClear) or with undefined content

@@ -34,7 +34,7 @@ class Device final : public measure::Device, public measure::ProbesFeatures {
   std::unique_ptr<const Instance> instance_;
   record::Device info_;
   Gpu gpu_;
-  std::array<std::optional<double>, 4> filter_errors_;  // the index is the VoxelFormat
+  std::array<std::optional<double>, 4> filter_errors_;  // indexed by VoxelFormat
 };
 
 }  // namespace triptych::vulkan_backend

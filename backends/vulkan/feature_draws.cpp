@@ -21,8 +21,8 @@ struct PointGrid {
   std::uint32_t height;
 };
 
-// Draws a point on each of the first `count` pixels. `draw` records the commands that number the
-// points.
+// Draws a point on each of the first `count` pixels. `draw` records the draw commands. The vertex
+// and instance numbers that these commands produce determine the pixel of each point.
 template <class Draw>
 measure::ProbedFeature probe_points(const Gpu& gpu, PointGrid grid, std::uint32_t count,
                                     std::string size, const Draw& draw) {

@@ -6,7 +6,8 @@
 
 namespace triptych::vulkan_backend {
 
-// Return whether the device can sample images of this format, or sample them with linear filtering.
+// can_sample() returns whether the device can sample images of this format, and can_filter()
+// whether it can do so with linear filtering.
 [[nodiscard]] bool can_sample(const Gpu& gpu, scene::VoxelFormat format);
 [[nodiscard]] bool can_filter(const Gpu& gpu, scene::VoxelFormat format);
 

@@ -48,7 +48,7 @@ struct Gpu {
   bool executes = true;       // if false, submit_and_wait() throws and run_once() does nothing
   bool reports_code = false;  // VK_KHR_pipeline_executable_properties is enabled
   measure::MemoryLedger held = {};  // memory of the buffers and images
-  // The number of submissions so far. Errors about a lost device contain it.
+  // The number of submissions so far, for error messages about a lost device.
   mutable std::uint64_t submissions = 0;
 
   [[nodiscard]] bool is_cpu() const {
@@ -62,7 +62,7 @@ struct Gpu {
 [[nodiscard]] Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled = false,
                            bool executes = true);
 
-// Groups the commands that are recorded during the lifetime of this object under a name that
+// While an object of this class exists, all recorded commands belong to a named group that
 // debuggers and profilers display. Does nothing if names were not requested.
 class Label {
  public:

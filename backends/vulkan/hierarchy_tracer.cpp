@@ -183,7 +183,7 @@ bool HierarchyTracer::all_ended() const {
   return true;
 }
 
-// The camera does not move, so every frame needs as many dispatches as the first frame.
+// Because the camera does not move, every frame needs as many dispatches as the first frame.
 void HierarchyTracer::prepare(const Layout& layout, vk::DescriptorSet set) {
   for (const std::string_view pass : build_passes) {
     build_.push_back(compute_pipeline(gpu_, layout, spirv(pass), constants_));

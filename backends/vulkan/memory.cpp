@@ -150,7 +150,7 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
   name_object(gpu, vk::ObjectType::eImage,
               reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image_)), "image", code_place);
   image_.bindMemory(*memory_, 0);
-  // The enumerators of the three image types and of their plain view types have the same values.
+  // The values of vk::ImageType for 1D, 2D and 3D equal those of vk::ImageViewType.
   view_ = {gpu.device, vk::ImageViewCreateInfo{.image = *image_,
                                                .viewType = static_cast<vk::ImageViewType>(type),
                                                .format = format,

@@ -64,8 +64,8 @@ class ParticleData {
   [[nodiscard]] const Buffer& colours() const noexcept { return colours_; }
   [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
 
-  // Binds all bindings below first_free_binding. Particles are bound only if they are fetched by
-  // index, because a vertex buffer may be larger than a storage buffer.
+  // Writes all bindings below first_free_binding to the set. Writes the bindings of the particles
+  // only if they are fetched by index, because a vertex buffer may be larger than a storage buffer.
   void bind(vk::DescriptorSet set, Fetch fetch) const;
 
   // Uses the camera of this scene for all later frames.

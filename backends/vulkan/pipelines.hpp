@@ -31,8 +31,8 @@ class Pipelines {
     vk::Pipeline pipeline;
     bool operator==(const Captured&) const = default;
   };
-  // From now on, creates pipelines so that the driver reports their compiled code, and records
-  // every requested pipeline once.
+  // Starts a capture: pipelines are now created in such a way that the driver reports their
+  // compiled code, and every requested pipeline is recorded once.
   void start_capture();
   // Ends the capture, and returns the recorded pipelines in the order in which they were requested.
   [[nodiscard]] std::vector<Captured> end_capture();

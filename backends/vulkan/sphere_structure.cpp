@@ -96,7 +96,8 @@ SphereStructure::Level SphereStructure::make_level(
   vk::raii::AccelerationStructureKHR structure(
       gpu_.device, vk::AccelerationStructureCreateInfoKHR{
                        .buffer = memory.get(), .size = memory.size(), .type = type});
-  // The device requires an alignment for scratch memory, so the buffer is larger by that alignment.
+  // The address of scratch memory must be aligned, so the buffer is enlarged by the required
+  // alignment.
   const vk::DeviceSize alignment = gpu_.extensions.scratch_alignment;
   Buffer scratch(gpu_, std::max(sizes.buildScratchSize, sizes.updateScratchSize) + alignment,
                  eStorageBuffer | eShaderDeviceAddress, Place::device);

@@ -50,7 +50,8 @@ struct SpriteTechnique {
   // The draw of the second pass of occlusion culling, if its stages differ from those of the first
   // pass.
   std::optional<SpriteDraw> later;
-  // Draws the particles of rest_runs a second time.
+  // The second draw, which covers only the particles in rest_runs. `point` uses it for spheres that
+  // exceed the largest point.
   std::optional<SpriteDraw> rest;
   std::vector<ParticleRun> rest_runs;
 };
@@ -69,7 +70,7 @@ class SpriteFrames final : public measure::Prepared {
   struct Draws {
     vk::Pipeline draw;
     vk::Pipeline later;
-    vk::Pipeline rest;  // null if there is no such draw
+    vk::Pipeline rest;  // null if there is no second draw
   };
   [[nodiscard]] Draws draws(bool counting) const;
   [[nodiscard]] DrawState draw_state(const SpriteDraw& draw, bool counting) const;

@@ -74,8 +74,8 @@ class VolumeResources {
   VolumeResources(const Gpu& gpu, const measure::VolumeWork& work, const Buffer* output,
                   std::span<const std::int32_t> map, const std::vector<technique::Part>& parts);
 
-  // The voxels and the transfer function as images. With the packed sampler, shaders read them as
-  // texels of buffers instead, as well as the bricks and the quadrature.
+  // The voxels and the transfer function as images. With the packed sampler, shaders instead read
+  // them, the bricks and the quadrature from texel buffers.
   struct Images {
     Image volume;
     Image table;

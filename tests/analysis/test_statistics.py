@@ -14,7 +14,7 @@ class KolmogorovSmirnov(unittest.TestCase):
         a, b = [1, 2, 3, 4], [2.5, 3.5, 5, 6]
         d, p = views.ks_two_samples(a, b)
         self.assertAlmostEqual(d, 0.5)  # at 2, the distribution functions are 2/4 and 0/4
-        # p is the share of all orders of the eight values whose distance is at least as large.
+        # p is the share of all orders of the eight values in which the distance is at least as large as the observed distance.
         as_far = 0
         orders = list(itertools.combinations(range(8), 4))
         for first in orders:

@@ -95,7 +95,7 @@ TEST(Matrix, UnsupportedListsOnlyExistingTechniques) {
   }
 }
 
-// Returns all technique ids with which the source code compares a technique.
+// Returns all technique ids that occur in comparisons in the source code `text`.
 std::set<std::string> compared_ids(const std::string& text) {
   static const std::regex comparison(R"re(technique(?:\.id|"\))?\s*[=!]=\s*"([a-z_]+)")re");
   std::set<std::string> ids;
@@ -108,14 +108,15 @@ std::set<std::string> compared_ids(const std::string& text) {
   return ids;
 }
 
-// Nobody would remember to update such special cases when a technique is added. Therefore,
-// differences between techniques must be columns of the catalogue.
+// Shared code must not contain special cases for techniques, because nobody would remember to
+// update them when a technique is added. Differences between techniques must be columns of the
+// catalogue.
 TEST(Matrix, SharedCodeComparesNoTechniqueIds) {
   EXPECT_EQ(compared_ids("if (work.technique == \"point\" && at(\"technique\") != \"raycast\" && "
                          "technique.id == \"mesh\" && api == \"gl\")"),
             (std::set<std::string>{"mesh", "point", "raycast"}));
-  // Records know techniques only by name, so has_picture.hpp may compare ids. has_picture_test
-  // checks that it agrees with the catalogue.
+  // Records contain only the name of a technique, so has_picture.hpp may compare ids.
+  // has_picture_test checks that it agrees with the catalogue.
   static const std::set<std::string> tested_against_the_catalogue{"has_picture.hpp"};
   for (const std::string folder : {"src", "backends", "suites"}) {
     for (const auto& file : files_below(folder, {".hpp", ".cpp"})) {

@@ -1,4 +1,4 @@
-// Tests the checks for CTest if a data file is missing that existed when the baselines were
+// Tests the checks for CTest when a data file is missing that existed when the baselines were
 // accepted.
 
 #include <gtest/gtest.h>

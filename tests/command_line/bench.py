@@ -13,7 +13,7 @@ import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "ci/bench"
 PROGRAM = os.environ["TRIPTYCH_PROGRAM"]
-# The name of one technique is the beginning of another's, and the levels of one configuration are part of another's.
+# The name of one technique is a prefix of the other's, and the levels of one configuration are a subset of another's.
 PLAN = "suite: volume\ntechnique: [raycast, raycast_fragment]\ndata: ['generate:gaussian_blob:8']\nstep: [1, 2]\nviewport: [8]\n"
 
 

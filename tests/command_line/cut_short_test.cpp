@@ -84,7 +84,8 @@ TEST_F(CutShort, AMissingDeviceIsReportedUnlessItIsExcused) {
   EXPECT_EQ(gate().code, 0) << gate().output;
 }
 
-// Neither failure ends the command itself.
+// A crash, an invalid answer or an early exit during device enumeration does not end `run` itself,
+// which must report the failure.
 TEST_F(CutShort, AFailedListingIsReported) {
   for (const char* kind : {"crash", "garbage", "exit"}) {
     const Result result =

@@ -57,9 +57,9 @@ Job gitlab() {
                       kept["reports"]["codequality"].as<std::string>()}};
 }
 
-// Returns a shell script that runs these steps: GitHub's steps in a separate shell each, GitLab's
-// in a common one. Then the script runs the final steps, prints the summary as GitHub does, and
-// exits with the code of the first step that failed.
+// Returns a shell script that runs these steps: each of GitHub's steps in a separate shell, but all
+// of GitLab's steps in the same shell. Then the script runs the final steps, prints the summary as
+// GitHub does, and exits with the code of the first step that failed.
 std::string script_of(const Job& job) {
   std::vector<std::string> shells = job.steps;
   if (!job.reports.empty()) shells = {fmt::format("{}", fmt::join(job.steps, "\n"))};
@@ -76,8 +76,8 @@ std::string script_of(const Job& job) {
   return script + "cat summary\nexit $code\n";
 }
 
-// Replaces the program. The replacement uses a scripted device and one small scene, whatever
-// devices the job requires, and accepts that part of the plan.
+// Replaces the program. Whatever devices the job requires, the replacement uses a scripted device
+// and one small scene, and `accept` drops the stored values of all other configurations.
 constexpr const char* stand_in = R"(#!/bin/bash
 [ "$1" = gate ] || exec {0} "$@" --drop
 arguments=()
@@ -128,7 +128,7 @@ class Examples : public testing::TestWithParam<Job (*)()> {
     return run(right_with_more_work_, accept);
   }
 
-  // Returns a line, counted from 1, of a file in the program's folder.
+  // Returns the line with this 1-based number from a file in the program's folder.
   [[nodiscard]] std::string line(const std::string& file, int number) const {
     std::istringstream text(program.read(file));
     std::string found;

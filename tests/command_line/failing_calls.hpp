@@ -21,7 +21,8 @@ namespace triptych::command_line {
 
 struct Outcome {
   bool traced = true;  // false if tracing is not permitted on this machine, so that nothing was run
-  // number of calls of the first thread that could have failed after the program started
+  // number of system calls by the first thread, after the start of the program, that could have
+  // failed
   long calls = 0;
   int code = -1;  // exit code, or -1 if the program was killed by a signal
 };
@@ -30,8 +31,8 @@ struct Outcome {
 
 namespace failing_detail {
 
-// Selects calls that concern files, memory and processes, and returns an error that the call can
-// have; 0 for other calls.
+// Returns the error with which the system call is made to fail, or 0 if the call does not concern
+// files, memory or processes.
 inline int error_of(unsigned long long call, long number) {
   switch (call) {
     case SYS_read:
@@ -95,7 +96,7 @@ inline Outcome follow(pid_t child, long at) {
       const int error = started ? error_of(registers.orig_rax, at) : 0;
       if (error != 0 && ++outcome.calls == at) {
         pending = error;
-        registers.orig_rax = ~0ULL;  // makes the kernel execute no call
+        registers.orig_rax = ~0ULL;  // makes the kernel skip the call
         ::ptrace(PTRACE_SETREGS, child, 0, &registers);
       }
     } else if (pending != 0) {

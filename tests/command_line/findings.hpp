@@ -1,6 +1,6 @@
 #pragma once
-// Finds findings in the JSON output of gate and validate. Tests compare causes and numbers instead
-// of sentences.
+// Extracts findings from the JSON output of gate and validate, so that tests compare causes and
+// numbers instead of sentences.
 
 #include <string>
 #include <string_view>

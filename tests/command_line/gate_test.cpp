@@ -166,8 +166,8 @@ TEST(Gate, AMissingRequiredDeviceDoesNotPass) {
   EXPECT_NE(judged.output.find("vulkan:*"), std::string::npos);
 }
 
-// An output that has the name of another file is rejected before anything is judged, and nothing is
-// written.
+// If an output file has the same name as another file of the command, the command is rejected
+// before anything is judged, and nothing is written.
 TEST(Gate, OutputsWithTheSameNameAreRejected) {
   const Program program;
   ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);

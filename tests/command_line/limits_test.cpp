@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr bool sanitized = true;  // a sanitizer's own memory exceeds every such limit
+constexpr bool sanitized = true;  // AddressSanitizer itself exceeds every limit
 #else
 constexpr bool sanitized = false;
 #endif

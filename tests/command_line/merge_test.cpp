@@ -68,7 +68,8 @@ TEST_F(MergeCommand, AMissingShardIsReported) {
               HasSubstr("have no record"));
 }
 
-// A configuration that a shard lacks on every device would not appear as a gap in the merged run.
+// If a shard lacks a configuration on every device, the merged run contains no trace of that
+// configuration. Therefore the command itself must report what its inputs lack.
 TEST_F(MergeCommand, ReportsWhatItsInputsLack) {
   SQLite::Database((program.folder() / "2.sqlite").string(), SQLite::OPEN_READWRITE)
       .exec("DELETE FROM record WHERE configuration = (SELECT min(configuration) FROM record)");

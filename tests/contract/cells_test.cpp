@@ -127,7 +127,7 @@ TEST(Cells, V1IsExact) {
   });
 }
 
-// A second-order rule would need a step size of one hundredth.
+// To be as accurate, a second-order rule would need a step size of about one hundredth of a voxel.
 TEST(Cells, AreCloserToTheLimitThanManySamples) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("surfaces");

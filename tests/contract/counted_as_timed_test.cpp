@@ -210,7 +210,7 @@ TEST(CountedAsTimed, BothBuildsRejectTheSameFragmentsEarly) {
   });
 }
 
-// A program that rejects fragments early in its own code does not count them.
+// If a program rejects fragments early in its own code, it does not count the rejected fragments.
 TEST(CountedAsTimed, FragmentsRejectedEarlyAreNotCounted) {
   on_every_driver([](measure::Device& device) {
     // On other APIs, the rasterizer is part of the driver.

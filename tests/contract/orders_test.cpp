@@ -103,9 +103,9 @@ TEST(Orders, V7IsLimitedByItsFaces) {
   });
 }
 
-// Compares the shaded image of a device with the true gradient of the wave. The error has three
-// parts: between the device's samples and the limit for small steps, between the limit and the
-// grid, and between central differences and the gradient.
+// Compares the shaded image of a device with the true gradient of the wave. The error is the sum of
+// three differences: between the device's samples and the limit for small steps, between the limit
+// and the grid, and between central differences and the gradient.
 double wave_error_on(measure::Device& device, int size) {
   const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v9_wave, size, 0.25);
   constexpr double tolerance = 1e-7;

@@ -69,8 +69,8 @@ inline reference::SphereTruth truth_of(const ParticleWork& work) {
 }
 
 // Returns a wall, which is the front of a huge sphere, and small spheres that are half embedded in
-// it. Once the wall is drawn, the front of each small sphere is closer than what its tile contains,
-// and its back is farther away.
+// it. Once the wall is drawn, the front of each small sphere is nearer than the surface in its
+// tile, but its back is farther away than that surface.
 inline ParticleWork studded_wall() {
   std::vector<std::array<double, 4>> spheres{{0, 0, -1000, 1000}};
   core::Random random(11);

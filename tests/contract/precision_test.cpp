@@ -1,5 +1,6 @@
-// Tests precision=fp64 on real devices: images stay within its own bound, which single precision
-// exceeds, and fp64 is rejected if any step of the computation is in single precision.
+// Tests precision=fp64 on real devices: images stay within the bound for double precision, which
+// single precision exceeds, and fp64 is rejected if any step of the computation would be in single
+// precision.
 
 #include <algorithm>
 #include <cmath>

@@ -59,7 +59,7 @@ TEST(Skipping, RealVolumesAreBitIdentical) {
 }
 
 // A perfect method would take exactly the samples with non-zero opacity. Every skip mode must take
-// all of these samples, and leaps over smaller bricks must not take more other samples than a walk
+// all of these samples. Leaps over smaller bricks must not take more additional samples than a walk
 // does.
 TEST(Skipping, TakesAllVisibleSamplesAndFewOthers) {
   const auto files = real_volumes();

@@ -74,8 +74,8 @@ inline std::filesystem::path write(const std::string& name, std::string_view con
   return file;
 }
 
-// Lets a reader throw Triptych's own error types. Any other exception terminates the process, which
-// libFuzzer reports as a crash.
+// Runs a reader, which may throw Triptych's own error types. Any other exception terminates the
+// process, which libFuzzer reports as a crash.
 template <typename Read>
 void expect_ours(const Read& read) {
   try {

@@ -59,7 +59,7 @@ class Layered {
                                file_of(plan), plan));
   }
 
-  // Measures also times and statistics, for the configurations that `choice` selects.
+  // Also measures times and statistics, for the configurations that `choice` selects.
   [[nodiscard]] test::Result time(std::string_view change, std::string_view plan,
                                   std::string_view choice) const {
     return run(change, fmt::format("run {} --device 'vulkan:*' --verbose --store timed.sqlite {}",

@@ -1,4 +1,4 @@
-// Rejects uses that exceed what a device with lowered limits reports.
+// Rejects API calls that exceed the lowered limits or use a removed feature of the device.
 #include <fmt/format.h>
 
 #include <algorithm>

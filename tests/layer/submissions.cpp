@@ -1,4 +1,5 @@
-// Drivers that lose submissions, crash at exit, or change the state of the process.
+// Driver faults outside of commands: lost submissions, crashes at exit, and changes to the state of
+// the process.
 #include <array>
 #include <atomic>
 #include <cfenv>

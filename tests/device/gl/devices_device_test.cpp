@@ -47,8 +47,8 @@ TEST(GlDevices, ListedDevicesCanBeOpened) {
   }
 }
 
-// tests/device/gl/CMakeLists.txt runs this test several times with GL 3.3, each time without
-// another extension.
+// tests/device/gl/CMakeLists.txt runs this test several times with GL 3.3, each time with a
+// different extension disabled.
 TEST(GlDevices, AnExtensionThatIsMissingIsNamed) {
   const char* without = std::getenv("MESA_EXTENSION_OVERRIDE");
   if (without == nullptr) GTEST_SKIP() << "MESA_EXTENSION_OVERRIDE removes no extension";
@@ -100,7 +100,7 @@ TEST(GlDevices, TheDefaultPathIsAsExactAsManualInterpolation) {
         EXPECT_EQ(path.voxel, native);
       }
     }
-    // This driver is known to be exact, so an error would be in the code that uses it.
+    // This driver's sampler is known to be exact, so an error would come from the probe.
     if (device.info().driver == "llvmpipe") {
       const measure::VolumePath path = device.default_path({scene::VoxelFormat::u8});
       EXPECT_EQ(path.voxel, scene::VoxelFormat::u8);
@@ -141,7 +141,7 @@ TEST(GlDevices, ExceededLimitsAreReportedWithBothNumbers) {
   });
 }
 
-// Frames that count nothing and skip nothing reach neither limit.
+// Neither limit applies to frames that neither count nor skip bricks.
 TEST(GlDevices, CountersAndBrickMapsMustFitIntoAStorageBlock) {
   static constexpr const char* limit = "GL_MAX_SHADER_STORAGE_BLOCK_SIZE";
   for_each_device([](const measure::Device& device) {
@@ -159,7 +159,7 @@ TEST(GlDevices, CountersAndBrickMapsMustFitIntoAStorageBlock) {
       if (most < 0x1p27) {
         EXPECT_THAT(reason, AllOf(HasSubstr("brick map"), HasSubstr(limit)));
       } else {
-        EXPECT_EQ(reason, "");  // here, bricks have more cells
+        EXPECT_EQ(reason, "");  // with larger bricks, the map fits
       }
       EXPECT_FALSE(
           device.unsupported(make_work("raycast", scene, {.skip = technique::Skip::bricks})));

@@ -150,7 +150,7 @@ std::uint64_t groups_of_other_passes(const scene::ParticleScene& scene,
   for (const technique::TileRound& round : rounds.rounds) {
     const bool last = &round == &rounds.rounds.back();
     groups += (round.cells + group - 1) / group + round.cells;  // cells, bin
-    if (!last || round.entries > 0) groups += 1;                // place, of up to 64 tiles
+    if (!last || round.entries > 0) groups += 1;                // place: a group per 64 tiles
     if (!last) groups += 1;                                     // settle
     if (round.entries > 0) groups += spread;                    // fill
   }

@@ -120,9 +120,9 @@ TEST(OpenClMaths, MatchesTheHost) {
     std::int64_t worst = 0;
     for (std::size_t i = 0; i < host.size(); ++i) worst = std::max(worst, ulps(host[i], device[i]));
     std::printf("%s: %lld ulp\n", found.info.id.c_str(), static_cast<long long>(worst));
-    // The functions use only additions, products, divisions and square roots. A processor rounds
-    // all of these as IEEE 754 requires. Other devices may have errors of 2.5 ulp in divisions and
-    // 3 ulp in square roots.
+    // The functions use only additions, products, divisions and square roots. A CPU rounds all of
+    // these as IEEE 754 requires. Other devices may have errors of 2.5 ulp in divisions and 3 ulp
+    // in square roots.
     EXPECT_LE(worst, found.info.driver == "pocl" ? 0 : 8);
   }
 }

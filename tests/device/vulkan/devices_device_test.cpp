@@ -89,7 +89,7 @@ TEST(VulkanDevices, TheDefaultPathFiltersExactly) {
       EXPECT_EQ(device.default_path(other).sampler, Sampler::hardware);
       EXPECT_EQ(device.default_path(other).voxel, VoxelFormat::f32);
     }
-    // There, linear sampling of 8-bit voxels is quantised to 8 bits.
+    // The results of this driver's linear sampling have only 8 bits if the voxels have 8 bits.
     EXPECT_GT(device.filter_weight_error({VoxelFormat::u8, Sampler::hardware}), 1e-3);
   });
 }

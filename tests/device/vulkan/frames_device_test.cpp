@@ -108,9 +108,9 @@ TEST(VulkanFrames, StatisticsAreExactAndRepeatable) {
       EXPECT_EQ(of_draw.at("vertex_invocations"), 3U);
       EXPECT_EQ(of_draw.at("clipping_invocations"), 1U);
       EXPECT_GE(of_draw.at("clipping_primitives"), 1U);
-      // The number depends on how the driver counts, which the gate judges separately. For 37×26
-      // pixels, lavapipe of Mesa 22.3 counts all of them and also helper invocations, whereas
-      // lavapipe of Mesa 25.0.7 counts 957.
+      // The number depends on how the driver counts, which the gate judges separately. For the 962
+      // pixels of this image, lavapipe from Mesa 22.3 counts an invocation for each pixel and all
+      // helper invocations, whereas lavapipe from Mesa 25.0.7 counts 957 invocations.
       EXPECT_GT(of_draw.at("fragment_invocations"), 0U);
       if (repeat == 0) fragments = of_draw.at("fragment_invocations");
       EXPECT_EQ(of_draw.at("fragment_invocations"), fragments);

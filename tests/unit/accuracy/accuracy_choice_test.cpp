@@ -1,4 +1,4 @@
-// Tests how the longest step size and the fastest case are found that meet a requested error.
+// Tests the search for the longest step size and for the fastest case that meet a requested error.
 
 #include <gtest/gtest.h>
 
@@ -48,8 +48,8 @@ TEST(LongestStep, IsAbsentIfTheShortestIsNotEnough) {
   EXPECT_FALSE(longest_step(1e-3, {}, [](double) { return std::nan(""); }).error <= 1e-3);
 }
 
-// The step size was found with only some of the pixels. For all pixels it may be too long, so it
-// has to be shortened.
+// The step size was found using only some of the pixels. It may be too long for the whole image, so
+// it has to be shortened.
 TEST(ShortenedStep, MeetsTheErrorAndIsOnlySlightlyShorter) {
   for (const double order : {1.0, 2.0, 4.0}) {
     int calls = 0;

@@ -78,7 +78,7 @@ TEST(FitOrder, RoundingDoesNotReduceTheOrder) {
   const auto order = fit_order(errors_by(
       halvings, [&](double h) { return std::hypot(0.1 * h * h, floor); }, floor));
   ASSERT_TRUE(order);
-  EXPECT_EQ(order->points, 4U);  // the errors 0.1, 0.025, 0.006 and 0.0016, but not 0.0004
+  EXPECT_EQ(order->points, 4U);  // the fit uses the errors 0.1, 0.025, 0.006 and 0.0016
   EXPECT_NEAR(order->order, 2, 0.005);
   EXPECT_FALSE(fit_order(errors_by(
       halvings, [&](double) { return floor; }, floor)));
@@ -138,8 +138,8 @@ TEST(SwitchedAlone, ChangesOneFactor) {
   EXPECT_EQ(switched[1].to, 1U);
 }
 
-// If a setting was tried with only one step size, it is compared with the best case of the same
-// step size.
+// If one level of the setting was measured with only one step size, it is compared with the best
+// case that has the same step size.
 TEST(SwitchedAlone, UsesTheBestCaseWithACounterpart) {
   const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 4, 1, "0.1")};
   const auto switched = switched_alone(cases);

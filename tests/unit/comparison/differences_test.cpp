@@ -107,7 +107,8 @@ TEST_F(Differences, AStatisticIsComparedAsExactlyAsItsDriversCount) {
   // The two numbers come from the same driver.
   EXPECT_EQ(only().kind, DifferenceKind::regression);
   use_another_driver();
-  // The API does not define this number, although both drivers count exactly.
+  // Both drivers count exactly, but the API does not define how many fragment invocations there
+  // are.
   EXPECT_EQ(only().kind, DifferenceKind::changed);
   device_a.statistics_calibration["fragment_invocations"] = {
       .worth = record::Worth::inflated, .low = 1.02, .high = 3.9};
@@ -246,7 +247,7 @@ TEST(DeviceDifferences, LimitsAreGainedLostAndChanged) {
   b.limits = {{"x", "2"}, {"z", "1"}};
   a.statistics_calibration = {{"fragment_invocations", {.worth = record::Worth::inflated}}};
   b.statistics_calibration = {{"fragment_invocations", {}},
-                              // The run on device a measured none of these.
+                              // not measured on device a
                               {"compute_invocations", {}}};
   const auto found = find_differences(a, b);
   ASSERT_EQ(found.size(), 4U);

@@ -242,7 +242,8 @@ TEST(Sequential, LooksFollowOneAnother) {
   const SequentialDesign design = SequentialDesign::standard();
   EXPECT_EQ(design.next_look(0), 12);
   EXPECT_EQ(design.next_look(12), 24);
-  // If the budget ends early, the data so far are evaluated at the next look.
+  // If a time budget ends the measurement between two looks, the data so far are evaluated at the
+  // later of the two.
   EXPECT_EQ(design.next_look(20), 24);
   EXPECT_EQ(design.next_look(384), 0);
   EXPECT_NEAR(design.alpha_of_a_look(), 0.01 / 6, 1e-15);
@@ -365,7 +366,7 @@ TEST(ConfirmInLooks, ProcessRunEffectsRarelyCauseFalseDiscoveries) {
   for (int family = 0; family < families; ++family) {
     ProcessRuns given;
     for (int i = 0; i < 24; ++i) {
-      // Only configurations become suspects whose first process run appears slower.
+      // Only configurations whose first process run appears slower become suspects.
       if (between * normal(random) < 0.015) continue;
       given.process_runs.emplace_back();
       for (int process_run = 0; process_run < 10; ++process_run) {

@@ -104,7 +104,7 @@ TEST(RobustLine, IsLeastSquaresWithoutOutliers) {
   EXPECT_NEAR(robust.slope_error, plain.slope_error, 0.25 * plain.slope_error);
   double sum = 0;
   for (const double h : robust.leverages) sum += h;
-  EXPECT_NEAR(sum, 2, 0.2);  // the number of parameters, apart from the effect of the weights
+  EXPECT_NEAR(sum, 2, 0.2);  // the number of parameters, changed slightly by the weights
 }
 
 TEST(RobustLine, AnExactLineHasNoScale) {

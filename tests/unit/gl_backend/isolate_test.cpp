@@ -1,4 +1,4 @@
-// Tests how child processes are handled that crash, hang or exit as drivers might.
+// Tests the handling of child processes that crash, hang or exit as drivers might.
 #include "backends/gl/isolate.hpp"
 
 #include <gmock/gmock.h>

@@ -1,4 +1,5 @@
-// Tests that the gate compares the compiler statistics of a run with stored ones.
+// Tests that the gate compares the compiler statistics of a run with the stored compiler
+// statistics.
 
 #include <SQLiteCpp/SQLiteCpp.h>
 #include <gmock/gmock.h>

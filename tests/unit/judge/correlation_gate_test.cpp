@@ -153,7 +153,8 @@ TEST(AcceptedDevices, CountsByAnotherCounterAreNotCompared) {
   EXPECT_THAT(text(result), HasSubstr("no_partner"));
 }
 
-// Results of repeated trials with a new device, whose 96 configurations scatter around a line.
+// The results of repeated trials, each with a new device whose 96 configurations scatter around a
+// line.
 struct Trials {
   int found = 0;
   int wrong = 0;

@@ -135,7 +135,7 @@ TEST_F(KnownGateTest, AFailureThatDoesNotRepeatIsAFlakeAndDoesNotPass) {
   EXPECT_EQ(known[0].known, Known::flake);
   request_.known = known;
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass);  // the flaky configuration fails this time
-  // It is not unexpected that a known flake passes.
+  // If a known flake passes, that does not count as an improvement.
   EXPECT_THAT(with(gate("accepted"), Verdict::improved), SizeIs(0));
 }
 

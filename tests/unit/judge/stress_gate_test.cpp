@@ -160,7 +160,7 @@ TEST_F(StressGateTest, ARefusalIsCorrectOnlyIfItIsAllowed) {
     record.reason = {.cause = record::Cause::not_supported, .detail = "too large"};
   });
   const Finding finding = found(refuse);
-  EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // drawn when it was accepted
+  EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // the accepted run drew it
   EXPECT_TRUE(finding.numbers.empty());               // no score now
   expected_ = [](const record::Record&) {
     return std::vector<record::Expectation>{{"may be refused", record::MayBeRefused{}}};

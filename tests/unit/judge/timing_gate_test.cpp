@@ -1,4 +1,4 @@
-// Times are always reported, but they affect the verdict only on request.
+// Tests that times are always reported, but affect the verdict only on request.
 
 #include <gmock/gmock.h>
 

@@ -40,7 +40,7 @@ class EnergyMetersTest : public ::testing::Test {
   core::TemporaryFolder system_;
 };
 
-// Takes long enough for ten calls to last a tenth of a second.
+// Sleeps long enough for ten calls to last a tenth of a second.
 void take_a_while() {
   std::this_thread::sleep_for(std::chrono::milliseconds(12));
 }
@@ -56,9 +56,9 @@ TEST_F(EnergyMetersTest, DuplicateAndUnreadableMetersAreIgnored) {
   zone("intel-rapl:0/intel-rapl:0:1", "dram", "1");
   zone("intel-rapl:1", "psys", "1");
   zone("intel-rapl-mmio:0", "package-0", "1");
-  // As if only root could read the file.
+  // An empty file represents a meter that only root can read.
   zone("intel-rapl:2", "package-1", "");
-  // As in a virtual machine.
+  // In virtual machines, the meter always reads 0.
   zone("intel-rapl:3", "package-2", "0");
   write("hwmon/hwmon0/name", "coretemp");
   write("hwmon/hwmon0/energy1_input", "1");

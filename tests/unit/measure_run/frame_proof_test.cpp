@@ -1,4 +1,4 @@
-// Tests that drivers are detected that report frames as finished without having drawn them.
+// Tests the detection of drivers that report frames as finished without having drawn them.
 #include "measure/protocol/frame_proof.hpp"
 
 #include <gmock/gmock.h>
@@ -86,7 +86,7 @@ TEST(FrameProof, FindsAnImageThatIsNeverDrawn) {
 // If a frame computes NaNs, it did draw the image. Whether NaNs are correct is left to the
 // comparison with the reference image.
 TEST(FrameProof, AcceptsNaNsThatAFrameComputed) {
-  // The NaN that a processor computes for 0/0.
+  // The NaN that an x86 CPU computes for 0/0.
   static constexpr std::uint32_t computed_nan = 0xFFC00000;
   ScriptedPrepared prepared = steady(50 * ms);
   prepared.picture = [](int) { return std::bit_cast<float>(computed_nan); };

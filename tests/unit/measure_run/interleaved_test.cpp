@@ -34,7 +34,7 @@ class TurnsTest : public RunTest {
     return result;
   }
 
-  // How a side ended while b held a configuration with an injected fault.
+  // Which side ended, and how, when side b measured a configuration with an injected fault.
   struct Ended {
     Side side;
     Outcome outcome;
@@ -160,7 +160,7 @@ TEST_F(TurnsTest, ALostDeviceEndsItsWorker) {
 TEST_F(TurnsTest, AnErrorInAFrameEndsTheBlockButNotTheWorker) {
   b.environment = {script_with(
       R"("base_ns": 3e6, "failures": [{"kind": "api_error", "at": "frame", "frame": 12, "only": "*data=*"}])")};
-  options_.kinds = {};  // otherwise, the frames of the calibration would fail as well
+  options_.kinds = {};  // calibration frames would fail too
   Interleaved interleaved = open();
   hold(interleaved);
   try {

@@ -136,8 +136,8 @@ TEST(Process, LeftoverProcessesAreKilledWithTheLastChild) {
   EXPECT_TRUE(dies(daemon));
 }
 
-// If another program replaced itself with this one, its children may still be running and must not
-// be killed.
+// If a program starts a child and then replaces itself with this program, that child may still be
+// running and must not be killed.
 TEST(Process, EarlierChildrenAreNotKilled) {
   Process process = shell("sleep 100 & exec '" MEASURE_RUN_HELPER "' keeps $!");
   EXPECT_EQ(describe(process.wait(seconds(20)).value()), "exited with code 0");

@@ -17,8 +17,7 @@ inline constexpr double ms = 1e6;  // one millisecond in nanoseconds
 
 class ScriptedPrepared final : public Prepared {
  public:
-  // A function that returns the result of the n-th frame, counted from 0, regardless of its
-  // purpose.
+  // A function that returns the result of frame n (zero-based), regardless of the frame's purpose.
   using Script = std::function<Frame(int n)>;
   explicit ScriptedPrepared(Script script) : script_(std::move(script)) {}
 
@@ -39,9 +38,9 @@ class ScriptedPrepared final : public Prepared {
   }
   std::string kernel_hash() const override { return "kernel"; }
 
-  // All calls except those of poison(), which frame_proof_test.cpp tests.
+  // A log of all calls except calls to poison(), which frame_proof_test.cpp tests.
   std::vector<std::string> calls;
-  // Whether the n-th frame, counted from 1, writes an image, and the value of that image's pixels.
+  // Whether frame n (1-based) writes an image, and the value of that image's pixels.
   std::function<bool(int n)> draws = [](int) { return true; };
   std::function<float(int n)> picture = [](int) { return 1.0F; };
 

@@ -28,7 +28,7 @@ using Calibration = std::map<std::string, StatisticWorth>;
 
 const StatisticWorth exact;
 
-// Matches statistics with this worth.
+// Matches statistics whose `worth` has this value.
 MATCHER_P(Is, worth, "") {
   return arg.worth == worth;
 }
@@ -61,8 +61,8 @@ record::Counts exact_counts(const Work& work) {
   throw std::logic_error("a work that is no calibration scene");
 }
 
-// A function that changes the exact statistics of the n-th statistics frame of a configuration,
-// counted from 0.
+// A function that changes the exact statistics of statistics frame n (zero-based) of a
+// configuration.
 using Script = std::function<void(const Work&, int n, record::Counts&)>;
 
 class CountingPrepared final : public Prepared {

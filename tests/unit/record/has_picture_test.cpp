@@ -1,6 +1,6 @@
-// Records know their technique only by name, because this room must not depend on the catalogue of
-// techniques. Therefore, this test checks that has_picture() and the catalogue agree on which
-// techniques draw images.
+// Records contain only the name of a technique, because the room `record` must not depend on the
+// catalogue of techniques. Therefore, this test checks that has_picture() and the catalogue agree
+// on which techniques draw images.
 
 #include "record/has_picture.hpp"
 

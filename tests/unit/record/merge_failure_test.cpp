@@ -59,8 +59,8 @@ class MergeFailure : public StoreTest {
   }
 };
 
-// Repeats the merge with every possible amount of free disk space, so that each page is once the
-// first that does not fit.
+// Repeats the merge with every possible amount of free disk space, so that each page in turn is the
+// first one that does not fit.
 TEST_F(MergeFailure, AFullDiskLeavesNoFile) {
   constexpr std::size_t page = 4096;
   const std::vector<fs::path> files{shard(1), shard(2)};

@@ -1,4 +1,4 @@
-// Tests stores in which a value was changed so that SQLite itself finds no error. Such values must
+// Tests stores in which a value was changed in a way that SQLite does not detect. Such values must
 // not affect a verdict.
 
 #include <SQLiteCpp/SQLiteCpp.h>

@@ -41,7 +41,7 @@ std::string refusal(const std::filesystem::path& file, Mode mode) {
   }
 }
 
-// Files that are not stores
+// Tests of files that are not stores
 
 TEST_F(StoreTest, NotASqliteFile) {
   std::ofstream(file_) << std::string(5000, 'x');
@@ -282,7 +282,7 @@ TEST_F(StoreTest, AFileNeedsAName) {
   }
 }
 
-// Kills and full disks
+// Tests of killed writers and full disks
 
 TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
   std::array<int, 2> ends{};

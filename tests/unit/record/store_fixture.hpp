@@ -1,5 +1,5 @@
 #pragma once
-// A folder for stores, and helpers that misuse a store from other processes.
+// A temporary folder for stores, and helpers that interfere with a store from other processes.
 
 #include <gtest/gtest.h>
 #include <sched.h>

@@ -21,8 +21,8 @@ double quadrature(const std::function<double(double)>& f, double a, double b) {
   return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(f, a, b, 12, 1e-14);
 }
 
-// Evaluates the defining integral, where `depth(t)` is the optical depth from the start of the ray
-// to t.
+// Evaluates the defining integral numerically. `tau(t)` is the extinction at t, and `depth(t)` is
+// the optical depth from the start of the ray to t.
 Radiance by_quadrature(const std::function<double(double)>& tau,
                        const std::function<double(double)>& colour,
                        const std::function<double(double)>& depth, double length) {

@@ -53,8 +53,8 @@ double steepness_at(scene::VolumeScene scene, const glm::dvec3& p, const glm::dv
   return render_volume(scene).rgba[0] * steeper;
 }
 
-// Bounds the round-off of a central difference, half the difference between two values stored as
-// floats.
+// Bounds the round-off of a central difference, which is half the difference between two values
+// stored as floats.
 double rounding_of(double largest) {
   return 0x1.0p-24 * largest;
 }

@@ -21,8 +21,8 @@ namespace {
 
 using std::numbers::pi;
 
-// The bounding rectangle of all pixels that are not empty, and their number. Columns and rows are
-// counted from 0.
+// The bounding rectangle (in zero-based columns and rows) and the number of all non-background
+// pixels.
 struct Extent {
   int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;
   std::size_t count = 0;

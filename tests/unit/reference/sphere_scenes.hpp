@@ -35,7 +35,7 @@ struct Shown {
   std::array<double, 4> rgba{};
 };
 
-// Returns what a ray in this direction shows, by testing every sphere.
+// Returns the sphere that is visible in this direction, found by testing every sphere.
 [[nodiscard]] Shown brute_force(const scene::ParticleScene& scene, const glm::dvec3& direction);
 
 // Returns the direction of the ray through a position, given in pixels from the upper left corner

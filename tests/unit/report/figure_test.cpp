@@ -99,8 +99,8 @@ TEST(Figure, ALogarithmicAxisIsMarked) {
   EXPECT_THAT(figure.svg().text(), HasSubstr(">time<"));
 }
 
-// If the axes of two figures contain the same values, a mark is drawn at the same position in both,
-// whatever else the figures show.
+// If two figures share an axis that contains the same values, a mark has the same position in both
+// figures, whatever else they show.
 TEST(Figure, SharesItsAxisByTheValuesItContains) {
   const std::vector<double> shared{1, 1000};
   const auto mark = [&](double other) {

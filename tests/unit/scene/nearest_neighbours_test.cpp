@@ -53,7 +53,7 @@ TEST(NearestNeighbours, IgnorePositionsBeyondSinglePrecisionAndStayFast) {
   const auto seconds_of = [](double unit) {
     std::vector<Place> line;
     for (int i = 0; i < 30'000; ++i) line.push_back({unit * i, unit * (i % 173), unit * (i % 71)});
-    // Measures processor time, which is independent of other running programs.
+    // Measures CPU time, which does not depend on other running programs.
     const std::clock_t start = std::clock();
     static_cast<void>(median_nearest_distance(std::move(line)));
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;

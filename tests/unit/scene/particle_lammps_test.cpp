@@ -134,7 +134,8 @@ TEST(LammpsData, RejectsBrokenFiles) {
   expect_refused("a.data", data("Atoms # full", rows), ":14:", "expected 7 or");
   expect_refused("a.data", data("Atoms", "1 1 0.5 1 2 3\n2 1 0.5 1 2 3\n"),
                  ":14:", "the style of atoms with 6 columns is ambiguous");
-  // Could be of style `full` or `sphere`, with or without image flags.
+  // These rows fit both the style `full` and the style `sphere`, the first without and the second
+  // with image flags.
   for (const std::string row : {"1 9 1 0.1 1 2 3", "1 9 1 0.1 1 2 3 0 0 0"}) {
     expect_refused("a.data", data("Atoms", row + "\n", "1"),
                    ":14:", "expected a comment that names the style");

@@ -97,8 +97,8 @@ TEST(BrickKinds, MergedBricksStayWithinTheirBudget) {
     const BrickRanges brick = one_brick(static_cast<float>(lo), static_cast<float>(hi));
     if (brick_kinds(brick, scene, adapt)[0] != merged) continue;
     ++merged_bricks;
-    // The ray passes only through such bricks. Merging takes one sample per brick, whereas the
-    // sampling lattice takes several.
+    // The ray passes only through bricks that can be merged. Merging takes one sample per brick,
+    // whereas the sampling lattice takes several.
     const int bricks = 9;
     const int steps = 8;
     std::vector<Sample> lattice;

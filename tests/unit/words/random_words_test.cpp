@@ -103,8 +103,8 @@ class RandomWords : public GateTest {
   }
 
   // Judges a run with failures as `gate` and `validate` do: first as it is, then after the failing
-  // configurations were run again, then with these failures as expected ones. Finally reduces and
-  // compares the run as `reduce`, `compare`, and `diff` do.
+  // configurations were run again, and then with these failures declared as expected. Finally,
+  // reduces and compares the run as `reduce`, `compare` and `diff` do.
   std::string everything(const std::string& name, Words* words) {
     add_failing_run(name, words);
     add_run(name + "-again", steady);
