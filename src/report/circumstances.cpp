@@ -69,7 +69,7 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
   }
   if (!days.empty()) {
     lines.push_back(
-        fmt::format("measured on {}, not today, because the store has no newer run of the plan",
+        fmt::format("the measurements are from {}, because the store has no newer run of the plan",
                     fmt::join(days, " and ")));
   }
   for (const auto& [reason, what] : unusable) {

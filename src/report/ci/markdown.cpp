@@ -61,8 +61,8 @@ std::string counted(const std::map<std::string_view, std::size_t>& remarks) {
     all += count;
     checks += fmt::format("{}{} {}", checks.empty() ? "" : ", ", check, count);
   }
-  return fmt::format("\n{} remark{} in report.html that {} not affect the verdict: {}\n", all,
-                     all == 1 ? "" : "s", all == 1 ? "does" : "do", checks);
+  return fmt::format("\nreport.html also contains {} remark{} that {} not affect the verdict: {}\n",
+                     all, all == 1 ? "" : "s", all == 1 ? "does" : "do", checks);
 }
 
 }  // namespace

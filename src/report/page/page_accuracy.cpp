@@ -95,9 +95,9 @@ void append_standing(TableRow& row, const AccuracyScene& scene) {
 }
 
 Html summary_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"scene", "device", "order of convergence", "smallest error", "cost of RMSE 1/255",
-             "cost of RMSE 1/1024", "cost of RMSE 1e-4", "hypervolume",
-             "slowdown relative to the best", "on the front", "dominated"}};
+  Rows rows{{"scene", "device", "order of convergence", "smallest error",
+             "cost to reach RMSE 1/255", "cost to reach RMSE 1/1024", "cost to reach RMSE 1e-4",
+             "hypervolume", "slowdown relative to the best", "on the front", "dominated"}};
   for (const AccuracyScene& scene : scenes) {
     const std::size_t best = accuracy::most_accurate(scene.cases);
     TableRow row{accuracy_title(scenes, scene), scene.device,
@@ -113,7 +113,8 @@ Html summary_table(const std::vector<AccuracyScene>& scenes) {
 }
 
 Html order_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"scene", "device", "family", "order ± 95 %", "coarsest", "finest"}};
+  Rows rows{
+      {"scene", "device", "family", "order with 95 % confidence interval", "coarsest", "finest"}};
   for (const AccuracyScene& scene : scenes) {
     for (const accuracy::AccuracyFamily& family : scene.families) {
       rows.push_back({accuracy_title(scenes, scene), scene.device, family.name,
@@ -149,7 +150,7 @@ class Parts {
       const auto each = accuracy::switched_picture(scene_.cases, other.cases, "viewport");
       if (each) add(*each, other.cases[each->to], " (a different image)");
     }
-    add("output with 8 bits per channel", "", scene_.eight_bits);
+    add("error due to 8-bit output", "", scene_.eight_bits);
     if (scene_.representation)
       add("error due to the voxel size and the transfer-function table", "",
           *scene_.representation);

@@ -163,7 +163,8 @@ std::string screen_of(const std::vector<comparison::DeviceHistory>& history) {
       text += words::lines_of(point.changes);
     }
     if (const HistoryPoint* worse = device.first_worse()) {
-      text += fmt::format("  first store that is worse: {}\n", worse->store);
+      text +=
+          fmt::format("  first store that is worse than the previous store: {}\n", worse->store);
     }
   }
   return text;

@@ -75,8 +75,8 @@ std::string difference(const SampleRow& row) {
     case Operation::take:
       break;
   }
-  return "compositing: the light after this sample is not the result of compositing it with the "
-         "light before it";
+  return "compositing: the transmittance and light recorded after this sample are not the result "
+         "of compositing the sample with the values recorded before it";
 }
 
 std::string numbers(std::string_view name, const std::array<double, 3>& place, double value,
@@ -223,7 +223,7 @@ void add_sprite(const accuracy::SpriteHistory& history, std::size_t at, PixelTex
   text.table.push_back(fmt::format(
       "{:>8} {}", row.id,
       surface("reference", expected.id, expected.depth, expected.colour,
-              expected.certain ? fmt::format("depth within {:.3g}, colour within {:.3g}",
+              expected.certain ? fmt::format("depth tolerance {:.3g}, colour tolerance {:.3g}",
                                              expected.depth_bound, expected.colour_bound)
                                : "at the sphere's edge, so the device may or may not show it")));
   if (first) text.marked = text.table.size();
