@@ -28,8 +28,9 @@ class Export : public testing::Test {
 };
 
 TEST_F(Export, WritesTablesAndReportsTheirRows) {
-  EXPECT_THAT(program.run("export s.sqlite --out tables").output,
-              AllOf(HasSubstr("of volume/quick"), HasSubstr("tables/records.csv: 2 rows")));
+  EXPECT_THAT(
+      program.run("export s.sqlite --out tables").output,
+      AllOf(HasSubstr("of the plan volume/quick"), HasSubstr("tables/records.csv: 2 rows")));
   const Result result = program.run("export s.sqlite --out tables --json 2>/dev/null | cat");
   const auto rows = nlohmann::json::parse(result.output).at("rows");
   EXPECT_EQ(rows.at("records"), 2);
