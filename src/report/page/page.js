@@ -73,7 +73,7 @@ function startComparison(dialog) {
   const magnify = on => {
     zoom.setAttribute('aria-pressed', on);
     view.classList.toggle('zoomed', on);
-    place.textContent = worst ? `The worst pixel: ${worst.x}, ${worst.y}, counted from the top left` : '';
+    place.textContent = worst ? `Worst pixel: ${worst.x}, ${worst.y} (from the top left)` : '';
   };
   zoom.addEventListener('click', () => magnify(!view.classList.contains('zoomed')));
   slider.addEventListener('input', cut);

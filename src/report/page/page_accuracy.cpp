@@ -243,7 +243,8 @@ Html accuracy_section(const PlanData& plan) {
           "hypervolume is the area, in natural logarithms, between the front and the point with a "
           "time of one second and the error of an empty image. The slowdown is the factor by which "
           "the device with the largest hypervolume could become slower before this device matches "
-          "it. It is based on the times of one run and does not affect the verdict.</p>") +
+          "it. The slowdown is based on the times of one run and does not affect the "
+          "verdict.</p>") +
       summary_table(scenes);
   text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);
   text +=

@@ -33,8 +33,9 @@ Html fit_text(const CorrelationPair& pair) {
       "and {:.4f} for the logarithms. {}</p>\n",
       line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson,
       line.rho,
-      line.admitted() ? Html()
-                      : markup("<b class=\"cannot_judge\">Refused</b>: {}", words::refusal(line)));
+      line.admitted()
+          ? Html()
+          : markup("<b class=\"cannot_judge\">Not judged</b>: {}", words::refusal(line)));
 }
 
 // Converts a pair to a figure. The logarithms in the pair are converted to millions of instructions

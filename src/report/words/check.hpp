@@ -28,7 +28,7 @@ inline constexpr std::array check_words{
     CheckWords{record::Check::code, "Code", "worse", "as stored", "not checked", false},
     CheckWords{record::Check::memory, "Memory", "changed", "as stored", "not checked", true},
     CheckWords{record::Check::timing, "Times", "slower", "not slower", "not checked", true},
-    CheckWords{record::Check::correlation, "Devices", "off the line", "on the line",
+    CheckWords{record::Check::correlation, "Devices", "off the fitted line", "on the fitted line",
                "shown, not judged", false},
     CheckWords{record::Check::accuracy, "Accuracy", "changed", "as stored", "not checked", false},
     CheckWords{record::Check::stress, "Stress", "below their stored score", "at their stored score",
