@@ -1,6 +1,6 @@
 #pragma once
-// Evaluates run time against error, where the error of a configuration is its deviation from the
-// limit image of its scene. The functions in this file compute orders of convergence and Pareto
+// Evaluates run time against error. The error of a configuration is the deviation of its image from
+// the limit image of the scene. The functions in this file compute orders of convergence and Pareto
 // fronts from plain numbers, which accuracy/cases.hpp collects.
 
 #include <cstddef>

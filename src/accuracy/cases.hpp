@@ -1,6 +1,6 @@
 #pragma once
-// The cases of a run whose accuracy is reported. Each image is compared with its limit image and
-// with its reference image.
+// The cases of a run for which accuracy is reported. Each image is compared with its limit image
+// and with its reference image.
 
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -19,7 +19,7 @@ namespace triptych::accuracy {
 struct LimitPicture {
   std::string key;  // the same key for all records that share the limit
   core::Image image;
-  core::Image uncertainty;  // per pixel, the largest distance from the exact limit
+  core::Image uncertainty;  // per pixel, a bound on the distance from the exact limit
   std::optional<core::Image> closed_form;
 };
 

@@ -40,7 +40,7 @@ StepError shortened_step(double step, double error, const StepLimits& limits,
   // The new step is a little shorter than required for an error of second order. The minimum
   // shortening ensures that the search ends.
   constexpr double margin = 0.97;
-  constexpr double least_shortening = 0.84;  // a quarter of an octave
+  constexpr double least_shortening = 0.84;  // the minimum shortening, a quarter of an octave
   constexpr double most_shortening = 1.0 / 16;
   for (;;) {
     const double found = error_of(step);

@@ -35,9 +35,9 @@ using ErrorOfStep = std::function<double(double step)>;
                                      const ErrorOfStep& error_of);
 
 // Transfers a step that was found on one image to another image: finds the longest step of at most
-// `step` whose error is at most `error`. The step is shortened repeatedly, each time as if the
-// error were of second order, because edges have a lower order. If no step is short enough, the
-// result is the shortest step with its error.
+// `step` whose error is at most `error`. Each shortening assumes that the error is of second order.
+// The step may have to be shortened several times, because the error at edges is of lower order. If
+// no step is short enough, the result is the shortest step with its error.
 [[nodiscard]] StepError shortened_step(double step, double error, const StepLimits& limits,
                                        const ErrorOfStep& error_of);
 

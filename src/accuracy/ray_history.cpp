@@ -7,7 +7,7 @@ namespace triptych::accuracy {
 namespace {
 
 // Recorded numbers are floats. Numbers that the device computed in single precision are therefore
-// exact. Numbers in double precision have been rounded, with a relative error of half of this
+// exact. Numbers in double precision have been rounded, with a relative error of at most half this
 // constant.
 constexpr double recorded = 0x1.0p-23;
 

@@ -22,9 +22,9 @@ struct HistoryPoint {
   std::string triptych;            // version of Triptych that measured the results
   std::set<std::string> injected;  // faults injected with `run --inject`
   // Cost and time relative to the first point. For each configuration, the ratio to the most recent
-  // earlier store that contains the configuration is computed. The geometric mean of these ratios
-  // over all configurations determines the change from point to point. nullopt if no earlier store
-  // contains any of the configurations.
+  // earlier store that contains the configuration is multiplied by the result for that store. The
+  // result for this store is the geometric mean over all configurations, or nullopt if no earlier
+  // store contains any of them.
   std::optional<double> cost;  // instructions of generated code and driver
   std::optional<double> time;  // median frame time on the wall clock, available in all stores
   // The changes of each configuration relative to the most recent earlier store that contains it.

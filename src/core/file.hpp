@@ -12,7 +12,7 @@
 namespace triptych::core {
 
 // Reads the whole file. Throws IoError with the system's error message if the file is missing,
-// unreadable or a folder. Also rejects pipes and devices, because they might never end.
+// unreadable or a folder. Also rejects pipes and devices, because reading them might never end.
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& file);
 
 // The size limit for files that people write by hand, such as plans, tables and descriptions.

@@ -53,8 +53,8 @@ class JsonFile {
 
   [[nodiscard]] JsonNode root() const { return {*this, value_, {}}; }
   [[nodiscard]] const Json& value() const noexcept { return value_; }
-  // Throws InputError with the line of the value at `path`, which consists of object keys and
-  // decimal array indexes.
+  // Throws InputError with the line of the value at `path`, which consists of object keys and of
+  // array indexes in decimal.
   [[noreturn]] void fail(const std::vector<std::string>& path, std::string_view message) const;
 
  private:

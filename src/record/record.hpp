@@ -169,7 +169,7 @@ struct Run {
   std::string id;  // unique; consists of the time and random digits
   std::string plan;
   std::string started_at;  // ISO 8601, UTC
-  // Facts about the machine: processor, cores, memory, operating system, kernel, compiler, and the
+  // Facts about the machine: CPU, cores, memory, operating system, kernel, compiler, and the
   // version of Triptych.
   std::map<std::string, std::string> system;
   Checks checks = {};                // the checks that the plan lists

@@ -35,8 +35,9 @@ std::string spelled(std::string_view value) {
   return usual ? text : text + hash_of(value);
 }
 
-// Examples: "mandelbulb_96" for "generate:mandelbulb:96", "bonsai" for "bonsai.nrrd",
-// "x_64x64x64_u8" for "x.raw:64x64x64:u8". The folder of a file is replaced by a hash.
+// Returns the form in which a level of the factor `data` appears in a short name, for example
+// "mandelbulb_96" for "generate:mandelbulb:96", "bonsai" for "bonsai.nrrd", and "x_64x64x64_u8" for
+// "x.raw:64x64x64:u8". The folder of a file is replaced by a hash.
 std::string spelled_data(std::string_view value) {
   for (const std::string_view scheme : {"generate:", "stress:", "analytic:"}) {
     if (value.starts_with(scheme)) return spelled(value.substr(scheme.size()));

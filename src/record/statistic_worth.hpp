@@ -11,7 +11,7 @@ namespace triptych::record {
 
 enum class Worth : std::uint8_t {
   exact,          // correct in every scene
-  counts,         // always equal to Triptych's counter `counter`, which is a different quantity
+  counts,         // always equal to a different quantity, Triptych's counter `counter`
   proportional,   // always `low` times the correct count
   inflated,       // between `low` and `high` times the correct count
   differs,        // wrong in at least one scene

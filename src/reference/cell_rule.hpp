@@ -51,8 +51,8 @@
 
 namespace triptych::reference {
 
-// The number of points that a device looks up in one piece. It is normally `most`, but may differ by
-// up to `open`.
+// The number of points that a device looks up in one piece. It is normally `most`, but may differ
+// by up to `open`.
 struct OpenPoints {
   double begin = 0;  // distance of the piece from the ray's entry
   double end = 0;
@@ -143,7 +143,7 @@ class CellRule {
   struct Part {
     double begin = 0;
     double end = 0;
-    Cubic cubic;           // values along the part, as positions among the table's entries
+    Cubic cubic;           // values along the part, as positions in the table
     double error = 0;      // error of these positions
     bool certain = false;  // whether the part is visible on every device
     bool touches_a_kink = false;

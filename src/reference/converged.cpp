@@ -45,7 +45,7 @@ constexpr double least_tolerance = 0x1.0p-48;
 // The part of the ray between two planes of voxel centres, with s from 0 to 1.
 struct Cell {
   double length = 0;              // in voxel lengths
-  Cubic knot;                     // values along the ray, as positions among the table's entries
+  Cubic knot;                     // values along the ray, as positions in the table
   std::array<Cubic, 3> gradient;  // only with shading
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// A cubic polynomial on [0, 1], and the positions where it passes integers.
+// A cubic polynomial on [0, 1], and the positions at which its value is an integer.
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,6 @@
 #pragma once
-// The normalised field, trilinear between voxel centres and clamped to the edge.
+// The normalised scalar field of a volume, interpolated trilinearly between voxel centres and
+// clamped to the edge.
 
 #include <array>
 #include <cstddef>

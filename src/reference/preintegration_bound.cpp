@@ -191,8 +191,9 @@ void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
   }
 }
 
-// Adds the error of one end of the path, where extinction is assumed to be linear. If the end may
-// be in the next cell on a device, this part may be a whole cell in front of the previous piece.
+// Adds the error of one end of the path, where extinction is assumed to be linear. On a device, the
+// end may be in the neighbouring cell. In that case, the part at the end is assumed to be as long
+// as a whole cell, and to begin in front of the previous piece.
 void PreintegrationBound::add_end(const PathPiece& piece, double position, const Reach& end) {
   const double e = path_.error;
   const bool beside = std::floor(position - e) != std::floor(position + e);

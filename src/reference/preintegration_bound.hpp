@@ -15,11 +15,11 @@ struct PathPiece {
   std::array<double, 4> a{};
   std::array<double, 4> b{};
   double length = 0;
-  double middle = 0;  // position of its middle among the table's entries
+  double middle = 0;  // position of its middle in the table
 };
 
-// The path of one step: the positions of its ends among the table's entries, and their largest
-// error on a device.
+// The path of one step: the positions of its ends in the table, and the largest error of these
+// positions on a device.
 struct StepPath {
   double from = 0;
   double to = 0;
@@ -106,7 +106,7 @@ class PreintegrationBound {
   const Table& table_;
   const ErrorModel& model_;
   StepPath path_;
-  double span_;  // length of the path in entries
+  double span_;  // length of the path, in table entries
   // The largest factor for the length of a device's cells; 0 if the path hardly leaves a cell.
   double widening_;
   Reach around_;

@@ -16,8 +16,8 @@ struct Ray {
   glm::dvec3 voxels_per_unit{};  // direction / spacing
   glm::dvec3 entry{};            // where the ray enters the volume
   double length = 0;             // length of the chord inside the volume; 0 if the ray misses it
-  double shortest = 0;           // smallest chord on a device
-  double longest = 0;            // largest chord on a device
+  double shortest = 0;           // length of the shortest chord on any device
+  double longest = 0;            // length of the longest chord on any device
   glm::dvec3 position_error{};   // for a sample, per axis; includes the error of the entry point
 
   // Returns the largest distance by which the ray may begin or end earlier or later on a device.

@@ -37,6 +37,6 @@ struct Technique {
 
 [[nodiscard]] const std::vector<Technique>& catalogue();
 [[nodiscard]] const Technique& technique(
-    std::string_view id);  // throws InputError with the known names
+    std::string_view id);  // throws InputError that lists the known names
 
 }  // namespace triptych::technique

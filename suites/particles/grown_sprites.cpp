@@ -12,7 +12,7 @@
 namespace triptych::particles_suite {
 namespace {
 
-// A square in camera space: x to the right, y up, z along the view.
+// A square in camera space: x to the right, y up, z along the view axis.
 struct Square {
   glm::dvec3 centre;
   glm::dvec3 right;  // unit vector

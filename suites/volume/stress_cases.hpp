@@ -39,8 +39,8 @@ struct StressScene {
   scene::Quadrature quadrature = scene::Quadrature::midpoint;
   std::array<float, 4> background{0.25F, 0.125F, 0.0625F, 1};
   std::vector<record::Expectation> expectations = {};
-  std::vector<record::Expectation> when_skipping = {};  // only if skip is not none
-  std::vector<record::Expectation> when_leaping = {};   // only if skip is distance
+  std::vector<record::Expectation> when_skipping = {};  // applied only if skip is not none
+  std::vector<record::Expectation> when_leaping = {};   // applied only if skip is distance
 };
 
 struct StressCase {

@@ -9,8 +9,8 @@
 
 namespace triptych::volume_suite {
 
-// Opacity is defined per voxel length, so the extinction per world unit is automatically scaled by
-// the inverse.
+// Scales the voxel size by a power of two. Opacity is defined per voxel length, so the extinction
+// per world unit scales inversely and the image stays the same.
 StressScene stress_scale(std::string_view variant) {
   StressScene scene = lopsided_scene();
   if (variant == "one") return scene;

@@ -15,7 +15,7 @@ struct PathPrecision {
   double adapt = 0;  // allowed error of merged samples (technique::brick_kinds)
   // The error of the device's sampler, measured by a probe (measure::Device).
   double filter_weight_error = 0;
-  double storage_step = 0;    // normalised value per step of a voxel format that loses precision
+  double storage_step = 0;    // resolution of a lossy voxel format, as a normalised value
   double voxel_rounding = 0;  // relative error of each voxel, for a format that rounds
   technique::Precision precision = technique::Precision::fp32;
 };

@@ -262,7 +262,7 @@ void add_runs(const fs::path& file, const fs::path& out, const std::vector<Merge
 
 namespace {
 
-// Returns the devices that the run was to measure, and the devices that are stored for the run.
+// Returns the ids of all devices that the run was supposed to measure or that are stored for it.
 std::set<std::string> devices_in(const Store& store, const Run& run) {
   const std::vector<std::string> begun = devices_of(run.begun);
   std::set<std::string> devices(begun.begin(), begun.end());

@@ -19,14 +19,14 @@ inline constexpr int small_edge = 6;  // TRI_SMALL_EDGE
 struct TileRound {
   std::uint32_t first = 0;
   std::uint32_t cells = 0;
-  std::uint64_t entries = 0;  // upper bound; 0 without large spheres
+  std::uint64_t entries = 0;  // upper bound on the number of entries; 0 without large spheres
 };
 
 struct TileRounds {
   std::vector<TileRound> rounds;  // together contain all cells, front to back
   std::uint64_t entries = 0;      // largest number of (tile, large sphere) pairs in a round
   bool small = false;             // whether there may be small spheres
-  bool at_once = false;           // one round with little overdraw, which the last pass draws
+  bool at_once = false;           // one round only, with little overdraw; drawn by the last pass
   std::uint64_t passes = 0;  // maximum loop iterations per invocation of tiles_bin or tiles_fill
 
   // Returns whether large spheres are drawn by passes before the last one.

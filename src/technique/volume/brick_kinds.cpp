@@ -139,9 +139,9 @@ class Merging {
   FunctionExtremes function_;
   scene::Shading light_;
   double offset_;
-  double opaque_share_;      // K in the derivation
-  double thin_share_ = 0;    // Y in the derivation
-  double colour_range_ = 1;  // R in the derivation
+  double opaque_share_;      // K in the derivation (brick_kinds.hpp)
+  double thin_share_ = 0;    // Y in the derivation (brick_kinds.hpp)
+  double colour_range_ = 1;  // R in the derivation (brick_kinds.hpp)
   double steepest_ = 0;      // largest cosine, divided by the range of values
 
   // Returns a colour after shading with this cosine. A larger cosine gives a brighter colour.
