@@ -45,7 +45,7 @@ struct Commands {
 void add_example(CLI::App& command, const std::string& example);
 
 using measure::PlanChoice;
-// Adds --set, --shard and the options that add_selection_options() adds.
+// Adds --set, --shard and all options of add_selection_options().
 void add_choice_options(CLI::App& command, PlanChoice& choice);
 // Adds --filter, --caselist and --fraction.
 void add_selection_options(CLI::App& command, PlanChoice& choice);
@@ -71,8 +71,8 @@ void add_baselines_option(
         "Read the baselines from this folder (default: ./baselines if it exists, else "
         "the installed baselines)");
 
-// Adds --device for commands that read stored records. The option selects among the devices that
-// have been measured.
+// Adds --device for commands that read stored records. The option selects from the devices for
+// which there are records.
 void add_devices_option(CLI::App& command, std::vector<std::string>& globs);
 
 // Adds --inject FAULT[@GLOB] (repeatable), and its former name --plant, which is hidden from

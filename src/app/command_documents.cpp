@@ -1,5 +1,6 @@
-// Generates the manual page and the shell completion from the commands, so that no option can be
-// missing. The build writes both files next to the program, and `cmake --install` installs them.
+// Generates the manual page and the shell completion from the definitions of the commands, so that
+// no option can be missing. The build writes both files next to the program, and `cmake --install`
+// installs them.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

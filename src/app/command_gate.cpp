@@ -129,8 +129,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   return request;
 }
 
-// Compares each device with the same device under the base build or driver instead of the
-// baselines.
+// Compares each device's current results with its results under the base build or driver. The
+// baselines are not used.
 core::ExitCode judge_by_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = measure::name_a_compiler(arguments.devices)

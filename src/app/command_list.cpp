@@ -96,7 +96,7 @@ core::Json json_of(const measure::Suite& suite, const std::vector<CountedPlan>& 
   return json;
 }
 
-// Lists everything that a plan of the suite may contain, and the plans that the suite provides.
+// Lists the factors and generators of the suite, and the plans that the suite provides.
 core::ExitCode list_suite(const measure::Suite& suite, const Registry& registry, bool as_json) {
   const std::vector<CountedPlan> plans = plans_of(suite, registry);
   if (as_json) {

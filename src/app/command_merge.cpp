@@ -109,7 +109,7 @@ core::ExitCode merge(const MergeArguments& arguments) {
   core::require_writable(std::filesystem::path(arguments.out).parent_path());
   // Everything that can fail is done before the merged store is created.
   const std::string gaps = all_gaps(arguments);
-  // On a terminal, the count is refreshed every 200 milliseconds.
+  // Shows the number of merged records on a terminal, at most once every 200 milliseconds.
   const auto count = [last =
                           std::chrono::steady_clock::time_point()](std::uint64_t records) mutable {
     const auto now = std::chrono::steady_clock::now();

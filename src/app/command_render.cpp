@@ -35,7 +35,7 @@ struct RenderArguments {
   bool truth = false;
   bool describe = false;
   bool in_process = false;
-  std::string dump;   // a folder; empty: none
+  std::string dump;   // the folder for --dump; empty if nothing is dumped
   std::string pixel;  // "X,Y"; empty: none
 };
 
@@ -136,8 +136,9 @@ void require_option(const std::string& value, std::string_view name) {
   if (value.empty()) throw core::InputError(fmt::format("{} is required", name));
 }
 
-// Sets the environment variables that make the backends name objects and passes for debugging tools
-// and, with --dump, write the driver's input to the folder `dump`.
+// Sets environment variables for the backends. They make the backends give names to objects and
+// render passes, which debugging tools display. With --dump, they also make the backends write the
+// driver's input to the folder `dump`.
 void prepare_process(const RenderArguments& arguments) {
   ::setenv("TRIPTYCH_LABELS", "1", 1);
   if (arguments.dump.empty()) return;

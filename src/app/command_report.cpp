@@ -18,8 +18,8 @@ struct ReportArguments {
   std::string benchmark_json;
 };
 
-// Checks that the file can be written. This is called before anything is written, so that either
-// both files are written or neither.
+// Checks that the file can be written. This is called for both output files before anything is
+// written, so that either both files are written or neither.
 void require_file(std::string_view option, const std::string& file) {
   if (file.empty()) return;
   if (std::filesystem::is_directory(file)) {

@@ -21,7 +21,7 @@ struct Comparing {
   measure::SideOptions b;
   std::string sides;                     // the options that select the sides: "--a … --b …"
   std::vector<std::string> faults = {};  // injected into side b
-  std::string store = {};                // the file for both runs of each plan; empty: not saved
+  std::string store = {};                // file that receives both runs of each plan; empty: none
   int budget_s = 0;                      // in seconds; 0: no limit
   int limit_s = standard_limit_s;
   std::uint64_t seed = 1;

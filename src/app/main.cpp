@@ -80,8 +80,8 @@ ExitCode run(int argc, char** argv) {
       return ExitCode::pass;
     }
     app::say("triptych: {}\nRun with --help for more information.\n", error.what());
-    // An older commit may not have every option of the command line yet. `git bisect` must skip
-    // such a commit, because this error is not a verdict on it.
+    // An older commit may lack some of the options on the command line. `git bisect` must skip such
+    // a commit, because the resulting error is not a verdict on the commit.
     const auto arguments = std::span(argv, static_cast<std::size_t>(argc));
     const bool bisects =
         std::ranges::find(arguments, std::string_view("--bisect")) != arguments.end();

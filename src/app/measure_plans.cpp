@@ -194,10 +194,10 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
   }
 }
 
-// Returns the devices on which plans are measured. Plans with the check `code` (`compiled`) use
-// GPUs and devices that only compile. They leave out CPU devices, because the plans with the check
-// `cost` already count the instructions of CPU devices. All other plans leave out devices that only
-// compile.
+// Returns the devices on which plans are measured. Plans with the check `code` (`compiled`) are
+// measured on GPUs and on devices that only compile, but not on CPU devices, because the plans with
+// the check `cost` already count the instructions of CPU devices. All other plans are measured on
+// all devices except those that only compile.
 std::vector<std::string> devices_of(const measure::Listing& listing,
                                     const std::vector<std::string>& globs, bool compiled) {
   std::vector<std::string> chosen = measure::choose_devices(listing, globs);
@@ -220,8 +220,8 @@ measure::Listing listing_for(const Measuring& measuring, const Registry& registr
     return registry.devices(measuring.devices);
   }
   measure::Listing listing = registry.devices_and_compilers(measuring.devices);
-  // A required device may match no glob in `devices`, and may not be one of the usual devices that
-  // devices_and_compilers() lists.
+  // Adds the required devices that only compile and are not yet listed: they may match no glob in
+  // `devices`, and they need not be among the usual devices that devices_and_compilers() lists.
   std::vector<std::string> more = measuring.required;
   std::erase_if(more, [&](const std::string& id) {
     return !measure::compile_only(id) ||

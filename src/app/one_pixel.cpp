@@ -44,7 +44,8 @@ accuracy::TakenSample taken_sample(const technique::TracedSample& traced) {
   return taken;
 }
 
-// Merges a part of a step into the parts before it, weighted by their contributions to the pixel.
+// Merges a part of a step into the preceding parts of the same step. Parts are weighted by their
+// contributions to the pixel.
 void add_part_of_step(accuracy::TakenSample& step, const accuracy::TakenSample& part) {
   const double added = (1 - step.opacity) * part.opacity;
   const double sum = step.opacity + added;

@@ -58,7 +58,7 @@ std::string page_about(const record::Store& store, measure::Truths& truths,
 }  // namespace
 
 void require_store(const std::filesystem::path& file) {
-  // An empty name is rejected when the store is opened.
+  // An empty name is rejected later, when the store is opened.
   if (file.empty() || std::filesystem::exists(file)) return;
   throw core::NotSupported(
       fmt::format("the store {} does not exist; measure first with `triptych run PLAN --store {}`",
@@ -192,7 +192,8 @@ report::JunitFacts junit_facts(const record::Store& store,
   return facts;
 }
 
-// Writes annotations and the job summary for GitHub, which does not read them from the folder.
+// Prints annotations and writes the job summary for GitHub, which does not read them from the
+// output folder.
 void tell_ci(const std::vector<judge::GateResult>& results, const report::FindingPlaces& places,
              CiSystem ci) {
   if (ci != CiSystem::github) return;

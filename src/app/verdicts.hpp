@@ -36,8 +36,8 @@ void require_store(const std::filesystem::path& file);
                                             const std::string& baselines,
                                             const judge::GateRequest& request);
 
-// Returns a request to judge a plan on all devices with all of the plan's checks, with the
-// reference images in `truths` and with today's date.
+// Returns a request to judge a plan on all devices with all of the plan's checks, using the
+// reference images in `truths` and today's date.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const std::string& plan);
 // Like the overload above, but for the plan as it is currently defined, including the
 // configurations that the run should contain.

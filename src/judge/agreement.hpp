@@ -18,8 +18,8 @@ inline constexpr double device_agreement = 1e-4;
 // can put a few samples on different sides of a threshold on different devices.
 inline constexpr double counters_across_devices = 1e-4;
 
-// Returns whether the value of this counter depends on the API. The same technique bins spheres on
-// OpenCL, but draws them directly on Vulkan and OpenGL.
+// Returns whether the value of this counter depends on the API. For example, the same technique
+// bins spheres on OpenCL, but draws them directly on Vulkan and OpenGL.
 [[nodiscard]] constexpr bool is_of_the_api(std::string_view counter) {
   return counter == "bin_entries";
 }

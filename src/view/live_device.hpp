@@ -71,8 +71,8 @@ class LiveDevice {
   void draw(Wanted wanted);
   [[nodiscard]] State state() const;
 
-  // Lets the worker exit normally, and does not wait for it. If the worker is drawing, it first
-  // finishes its frame. If the guard has been interrupted, the worker is killed instead.
+  // Lets the worker exit normally, without waiting for it. If the worker is drawing, it first
+  // finishes its frame. If a signal has asked the program to stop, the worker is killed instead.
   void retire();
   [[nodiscard]] bool is_gone() const { return gone_; }
 

@@ -32,7 +32,7 @@ class References {
   // Requests the reference images of the records that are visible now. Missing images are rendered
   // one after the other. Drops pending requests for records that are no longer visible.
   void show(const std::vector<const record::Record*>& records);
-  // Returns nullptr if the image is not rendered yet.
+  // Returns nullptr if the image has not been rendered yet.
   [[nodiscard]] std::shared_ptr<const Reference> find(const record::Record& record) const;
 
  private:

@@ -17,7 +17,7 @@ struct CodeStatistic {
   std::string_view name;       // such as "occupancy"; empty for an unknown statistic
   std::string_view mesa = {};  // the name in Mesa's shader-db totals, such as "MaxWaves", or empty
   bool decides = false;        // whether a change for the worse is a regression
-  bool more_is_worse = true;   // used only if `decides`, and for totals
+  bool more_is_worse = true;   // used only for totals and if `decides` is true
   int rank = 100;              // statistics are printed in this order, the most important first
 
   [[nodiscard]] bool is_occupancy() const { return rank == 0; }

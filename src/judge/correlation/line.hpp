@@ -12,7 +12,7 @@
 namespace triptych::judge {
 
 // Thresholds, which can be tuned with ci/bench. They were chosen on the basis of frame times,
-// because costs were not yet available for several devices.
+// because at that time costs had not yet been measured on several devices.
 struct LineModel {
   // Conditions under which a line is meaningful.
   static constexpr std::size_t least_configurations = 20;

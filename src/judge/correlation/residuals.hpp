@@ -39,8 +39,8 @@ struct CostChange {
   double driver = 0;
 };
 [[nodiscard]] CostChange change_of(const FrameCost& stored, const FrameCost& now);
-// Returns ln(new cost/old cost) of the frame, counting only the changes of the parts that exceed
-// their bounds, or 0 if no part does. Each part is judged separately, so that a change in device
+// Returns ln(new cost/old cost) of the frame, counting only those parts whose change exceeds its
+// bound (0 if there is no such part). Each part is judged separately, so that a change in device
 // code is detected even if the driver's count varies a lot.
 [[nodiscard]] double moved_by(const CostChange& change, const Repeatability& bound);
 // Returns whether the residual r of devices A and B differs from r0 by more than the repeatability

@@ -63,7 +63,7 @@ class SceneJudge {
     judge_image(record, std::move(image), pair);
   }
 
-  // Compares the devices with each other. Call it after all records of the scene were judged.
+  // Compares the devices with each other. Call it after all records of the scene have been judged.
   void judge_agreement() {
     const Picture* left = nullptr;
     const Picture* right = nullptr;

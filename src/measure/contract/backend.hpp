@@ -37,7 +37,7 @@ struct ParticleWork {
   // camera as all other frames.
   std::optional<scene::Camera> camera_before = {};
 
-  // Returns the work with the camera of the extra frame.
+  // Returns a copy of this work with the camera of the extra frame.
   [[nodiscard]] ParticleWork before() const {
     ParticleWork work = *this;
     if (camera_before) work.scene.camera = *camera_before;
@@ -78,10 +78,10 @@ class Prepared {
 
   // Overwrites all outputs of a frame (image, ids, depth, counters) with values that no frame
   // produces. Until the next frame is drawn, image() returns NaN in every channel. Without this
-  // function, a frame that was not drawn would leave the values of an earlier frame and seem
-  // correct. It is never called within the timed or counted part of a frame.
+  // function, the outputs of an earlier frame would remain in place if a frame is not drawn, and
+  // would seem correct. It is never called within the timed or counted part of a frame.
   virtual void poison() = 0;
-  // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost, NotDrawn.
+  // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost or NotDrawn.
   [[nodiscard]] virtual Frame frame(Purpose purpose) = 0;
   // Reads back the image of the latest frame from the device.
   [[nodiscard]] virtual core::Image image() = 0;
@@ -156,7 +156,7 @@ class Device {
   // is not included. The result is empty if the backend does not count its memory.
   [[nodiscard]] virtual record::Counts memory() const { return {}; }
 
-  // Throws NotSupported, ApiError, DeviceLost.
+  // Throws NotSupported, ApiError or DeviceLost.
   [[nodiscard]] virtual std::unique_ptr<Prepared> prepare(const Work& work) = 0;
 
   // Compiles the timed build and returns the compiler's report, without drawing anything. On a

@@ -14,9 +14,9 @@
 namespace triptych::measure {
 
 struct ErrorRequest {
-  Plan plan;  // contains the candidates for all scenes that can meet the error
-  // One line for each scene that cannot meet the error, with the reason and the scene's smallest
-  // error.
+  Plan plan;  // contains the candidates for all scenes in which the error can be met
+  // One line for each scene in which no candidate can meet the requested error, with the reason and
+  // the smallest error that is possible in the scene.
   std::vector<std::string> out_of_reach;
 };
 

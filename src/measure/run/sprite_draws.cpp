@@ -12,7 +12,7 @@ namespace {
 using accuracy::Particles;
 using accuracy::SurfaceDifference;
 
-// Limits on the number of draws. They are needed because a device takes some milliseconds to
+// Limits on the number of draws. They are needed because a device takes several milliseconds to
 // prepare and draw even a few spheres.
 constexpr std::size_t most_rows = 64;
 constexpr int most_draws = 128;

@@ -20,10 +20,11 @@ struct Described {
 
 [[nodiscard]] accuracy::ShownSurface shown_at(const core::Image& image, PixelPlace place);
 
-// Returns the history of the pixel. `whole` is the pixel in the frame with all particles. If that
-// pixel is wrong although each sphere alone is drawn correctly, the function searches for a small
-// set of particles with which the pixel is still wrong. Throws NotSupported if the suite does not
-// implement ExpectsSprites. Also throws the exceptions of the device's functions.
+// Returns the history of the pixel. `whole` is the device's result for this pixel if all particles
+// are drawn. If that result is wrong although each sphere alone is drawn correctly, the function
+// searches for a small set of particles with which the pixel is still wrong. Throws NotSupported if
+// the suite does not implement ExpectsSprites. Also throws the exceptions of the device's
+// functions.
 [[nodiscard]] accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& suite,
                                                      const Described& described, PixelPlace place,
                                                      const accuracy::ShownSurface& whole);

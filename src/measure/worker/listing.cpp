@@ -237,8 +237,8 @@ Greeting greet(const record::Device& device, const std::string& suite) {
 }
 
 void answer_listing(const Backend& backend) {
-  // Waits for the request first. If this process answered and exited before, the other process
-  // could not write its request to the pipe any more.
+  // Waits for the request first. Otherwise, this process could answer and exit before the other
+  // process has written its request to the pipe, and writing the request would fail.
   static_cast<void>(receive(Process::child_request_fd));
   send(Process::child_answer_fd, {.json = as_json(backend.list()), .binary = {}});
 }
