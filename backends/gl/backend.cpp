@@ -27,7 +27,8 @@ namespace {
 constexpr std::array<WindowSystem, 2> window_systems{
     {{"EGL", "-egl", &egl_candidates}, {"OSMesa", "-osmesa", &osmesa_candidates}}};
 
-// A driver that needs longer than this to report its name counts as hung. A cold start takes 0.1 s.
+// The time limit for a driver to report its name. A driver that takes longer counts as hung. A cold
+// start takes 0.1 s.
 constexpr std::chrono::seconds listing_limit{20};
 
 struct Opened {
@@ -62,8 +63,8 @@ class Walk {
   }
 
  private:
-  // Returns true for the second occurrence of the platform's default device. This device is opened
-  // first, and is listed again among the enumerated devices.
+  // Returns whether this is the second occurrence of the platform's default device, which is opened
+  // first and then found again during enumeration.
   bool is_repeated(const record::Device& info) {
     if (at_ == 1) {
       first_ = info;
@@ -77,7 +78,7 @@ class Walk {
   const WindowSystem& system_;
   std::vector<Candidate> candidates_;
   std::size_t at_ = 0;
-  std::optional<record::Device> first_;  // the default device, until its second occurrence
+  std::optional<record::Device> first_;  // the default device, until it is found again
   std::map<std::string, int> count_;     // number of devices found so far, by id
 };
 

@@ -50,7 +50,7 @@ Program tree_program(const Api& gl, const ParticleConstants& constants,
 
 Program build_program(const Api& gl, ParticleConstants constants, BuildPass pass,
                       std::vector<std::string>& sources) {
-  constants.count = false;  // the passes that build the hierarchy count nothing
+  constants.count = false;  // the build passes have no counters
   const std::string main_file = fmt::format("hierarchy_{}.comp.glsl", build_passes.at(static_cast<std::size_t>(pass)));
   if (pass == BuildPass::keys) return tree_program(gl, constants, {"storage.glsl", main_file}, sources);
   if (pass == BuildPass::leaves) {

@@ -29,8 +29,8 @@ class CellDraws {
   Buffer commands_;
 };
 
-// Returns the cells with their particle counts reduced by the factor `stride`. The counts are
-// rounded so that all cells together contain one in `stride` of the particles.
+// Returns the same cells with about 1/stride of their particles. The counts are rounded so that all
+// cells together contain one in `stride` of the particles.
 [[nodiscard]] std::vector<technique::Cell> thinned(std::span<const technique::Cell> cells,
                                                    int stride);
 

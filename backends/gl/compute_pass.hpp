@@ -11,8 +11,8 @@ namespace triptych::gl_backend {
 // they can.
 [[nodiscard]] std::optional<std::string> storage_unsupported(const Api& gl);
 
-// Runs one invocation for each pixel, which writes into a storage buffer. Used by raycast and
-// speed_of_light.
+// Runs one invocation per pixel. Each invocation writes its pixel into a storage buffer. Used by
+// raycast and speed_of_light.
 class ComputePass final : public Pass {
  public:
   ComputePass(const Api& gl, int width, int height, int extra_work_stride);

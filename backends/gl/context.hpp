@@ -11,7 +11,8 @@
 
 namespace triptych::gl_backend {
 
-// A GL context and its functions. Call them only while a Current object for the context exists.
+// A GL context and its functions. The functions may be called only while a Current object for the
+// context exists.
 class Context {
  public:
   Context(const Context&) = delete;

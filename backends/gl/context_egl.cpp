@@ -54,7 +54,8 @@ struct Egl {
   }
 
  private:
-  // Compares whole words, because the name of one extension may be the beginning of another.
+  // Compares whole words, because the name of one extension may be a prefix of another extension's
+  // name.
   static bool is_among(const char* names, std::string_view extension) {
     return names != nullptr &&
            fmt::format(" {} ", names).find(fmt::format(" {} ", extension)) != std::string::npos;
@@ -138,8 +139,8 @@ class EglContext final : public Context {
         EGL_CONTEXT_MAJOR_VERSION,       major,
         EGL_CONTEXT_MINOR_VERSION,       minor,
         EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
-    // EGL 1.4 displays (such as softpipe's) reject the debug attribute of EGL 1.5, but all displays
-    // accept this flag.
+    // EGL 1.4 displays (such as softpipe's) reject the debug attribute of EGL 1.5. Therefore this
+    // uses the flag of EGL_KHR_create_context, which all displays accept.
     if (debug && egl_.has(display_, "EGL_KHR_create_context")) {
       attributes.insert(attributes.end(),
                         {EGL_CONTEXT_FLAGS_KHR, EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR});

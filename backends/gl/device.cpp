@@ -167,8 +167,8 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
                              .make(context_->gl(), std::get<measure::ParticleWork>(work.scene)));
   }
 
-  // A volume that does not fit into one texture is drawn in parts, which is impossible with
-  // hardware samplers.
+  // Returns whether the volume fits into one texture. Larger volumes are drawn in parts, which is
+  // impossible with hardware samplers.
   [[nodiscard]] bool holds_whole(const std::array<int, 3>& size, scene::VoxelFormat format) const {
     const Current current(*context_);
     return gl_backend::holds_whole(context_->gl(), size, format);

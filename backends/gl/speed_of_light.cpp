@@ -1,5 +1,5 @@
-// Performs only the fetches and table look-ups of raycast. It is the same pass, in which a
-// compile-time constant removes all other work.
+// Performs only the fetches and table look-ups of raycast. Runs the same pass as raycast, with a
+// compile-time constant that removes all other work.
 #include "backends/gl/compute_pass.hpp"
 #include "backends/gl/techniques.hpp"
 #include "backends/gl/volume_prepared.hpp"

@@ -99,8 +99,8 @@ std::optional<std::string> TileBuffers::unsupported(const Api& gl,
         "{}x{} pixels need a storage block of {} bytes, but GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
         scene.width, scene.height, static_cast<std::int64_t>(planes * word) * pixels, most);
   }
-  // The largest number of entries that one cell can need. The cell needs this many if each of its
-  // spheres overlaps every tile.
+  // The largest number of entries that a cell can need, which occurs if each of its spheres
+  // overlaps every tile.
   const std::int64_t tiles = std::int64_t{parts(scene.width, technique::tile_edge)} *
                              parts(scene.height, technique::tile_edge);
   const auto crowd = std::min<std::int64_t>(4 * technique::particles_per_cell,

@@ -20,7 +20,8 @@ bool holds(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat for
   return accepted != 0;
 }
 
-// Returns how much memory the device's limits leave for voxels, and the name of the limit.
+// Returns the memory available for voxels under the device's limits, and the name of the decisive
+// limit.
 technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   if (is_packed(work)) {

@@ -25,7 +25,7 @@ void play_failure(const Script& script, Place at, const std::string& subject, in
 [[nodiscard]] std::optional<FailureKind> image_failure(const Script& script,
                                                        const std::string& subject);
 
-// Matches like fnmatch(3) without flags.
+// Returns whether `subject` matches the glob, as fnmatch(3) without flags does.
 [[nodiscard]] bool matches(const std::string& glob, const std::string& subject);
 
 void log_call(const Script& script, std::string call);

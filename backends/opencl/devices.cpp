@@ -28,8 +28,8 @@ constexpr auto variables = std::to_array<std::string_view>(
 
 std::map<std::string, std::string> environment() {
   auto set = measure::set_variables(variables);
-  // Triptych itself sets this variable to 1 for its workers. It is omitted, so that the same device
-  // has the same description inside and outside of a worker.
+  // Triptych itself sets this variable to 1 for its workers. It is omitted from the device's
+  // description, so that the description is the same inside and outside of a worker.
   if (const auto found = set.find("POCL_PTHREAD_MIN_WGS");
       found != set.end() && found->second == "1") {
     set.erase(found);

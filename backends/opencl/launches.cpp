@@ -22,7 +22,7 @@ void enqueue_all(const Session& session, const std::vector<Launch>& launches,
   }
 }
 
-// `launches` is null if the events do not belong to kernel launches alone.
+// `launches` is null if some events belong to commands other than kernel launches.
 void check_all(const std::vector<cl::Event>& events, const std::vector<Launch>* launches,
                core::CodePlace place) {
   for (std::size_t at = 0; at < events.size(); ++at) {

@@ -66,8 +66,8 @@ class FrameRun {
   [[nodiscard]] measure::Frame draw(const Session& session, const std::vector<Launch>& launches,
                                     measure::Purpose purpose,
                                     core::CodePlace place = core::CodePlace::current());
-  // Draws a frame that does not consist of kernel launches alone. `enqueue` receives a list to fill
-  // with one event per command, and must wait until the queue has finished.
+  // Draws a frame that contains commands other than kernel launches. `enqueue` receives a list to
+  // fill with one event per command, and must wait until the queue has finished.
   template <typename Enqueue>
   [[nodiscard]] measure::Frame draw(measure::Purpose purpose, const Enqueue& enqueue) {
     launches_ = nullptr;
@@ -89,7 +89,7 @@ class FrameRun {
   [[nodiscard]] std::optional<double> device_ns() const;  // nullopt if the device reports no time
 
   std::vector<cl::Event> events_;
-  // Null if the most recent frame did not consist of kernel launches alone.
+  // Null if the most recent frame contained commands other than kernel launches.
   const std::vector<Launch>* launches_ = nullptr;
 };
 

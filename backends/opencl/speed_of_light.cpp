@@ -1,5 +1,5 @@
-// Performs only the fetches and table look-ups of raycast. It is the same kernel, compiled to sum
-// the values that it reads.
+// Performs only the fetches and table look-ups of raycast. Runs the same kernel as raycast,
+// compiled to sum the values that it reads.
 #include "backends/opencl/techniques.hpp"
 #include "backends/opencl/volume_frames.hpp"
 

@@ -30,8 +30,8 @@ std::vector<std::string_view> source_files(const Constants& constants) {
   return files;
 }
 
-// The size of a work group in pixels. It is large enough for a GPU's waves, and makes no difference
-// on a CPU.
+// The size of a work group in pixels. It is large enough for the waves of a GPU, and makes no
+// difference on a CPU.
 constexpr std::size_t group_width = 16;
 constexpr std::size_t group_height = 4;
 

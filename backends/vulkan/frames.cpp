@@ -34,8 +34,8 @@ constexpr std::array<Statistic, 11> statistics_in_order{{
 }};
 
 constexpr std::uint32_t timestamps = 2;
-// The device overwrites this tick count. A clock never returns it by chance, because the bits
-// beyond the width of its counter are 0.
+// The initial value of a timestamp, which the device overwrites. A clock never returns this value
+// by chance, because the bits beyond the width of its counter are 0.
 constexpr std::uint64_t unwritten_ticks = 0xFEEDFACE0BADF00D;
 
 }  // namespace
@@ -113,8 +113,8 @@ std::optional<double> Frames::device_ns() const {
       sizeof ticks, ticks.data(), sizeof ticks[0],
       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
   if (result != VK_SUCCESS) return std::nullopt;
-  // If the device did not write the timestamps, the frame time is NaN. The calibration of clocks
-  // reports such a clock.
+  // If the device did not write the timestamps, the device time is NaN, and the clock calibration
+  // reports the clock as faulty.
   if (ticks[0] == unwritten_ticks || ticks[1] == unwritten_ticks) {
     return std::numeric_limits<double>::quiet_NaN();
   }

@@ -60,7 +60,7 @@ std::string assembly_of(const Gpu& gpu, const vk::PipelineExecutableInfoKHR& whi
   if (result != vk::Result::eSuccess && result != vk::Result::eIncomplete) return {};
   std::string assembly;
   for (std::size_t i = 0; i < count; ++i) {
-    if (is_disassembly(representations[i])) assembly = texts[i].c_str();  // up to its NUL
+    if (is_disassembly(representations[i])) assembly = texts[i].c_str();  // up to the first NUL
   }
   return assembly;
 }

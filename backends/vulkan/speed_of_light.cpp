@@ -1,5 +1,5 @@
-// Performs only the fetches and table look-ups of raycast. It is the same kernel, specialised to
-// sum the values that it reads.
+// Performs only the fetches and table look-ups of raycast. Runs the same kernel as raycast,
+// specialised to sum the values that it reads.
 #include "backends/vulkan/compute_frames.hpp"
 #include "backends/vulkan/techniques.hpp"
 

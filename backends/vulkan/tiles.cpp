@@ -64,7 +64,7 @@ class TilesFrames final : public measure::Prepared {
   Specialization constants_;
   ParticleData data_;
   TileBuffers buffers_;
-  std::uint32_t tile_groups_;  // with one invocation per tile
+  std::uint32_t tile_groups_;  // work groups with one invocation per tile
   ParticleTarget target_;
   Layout layout_;
   vk::raii::DescriptorPool pool_;

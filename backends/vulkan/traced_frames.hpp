@@ -31,8 +31,8 @@ class Tracer {
   Tracer& operator=(const Tracer&) = delete;
   virtual ~Tracer() = default;
 
-  // The following two return the bindings of the structure itself, and the number of push constant
-  // bytes for its compute passes.
+  // bindings() returns the bindings of the structure itself, and push_bytes() returns the size of
+  // the push constants for its compute passes.
   [[nodiscard]] virtual std::vector<vk::DescriptorSetLayoutBinding> bindings() const = 0;
   [[nodiscard]] virtual std::uint32_t push_bytes() const = 0;
   // Returns the shader stages of the passes.

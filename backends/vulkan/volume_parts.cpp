@@ -26,7 +26,8 @@ technique::Room image_room(const Gpu& gpu, const technique::Layers& slices,
   return {0, "the maximum size of an image in this format"};
 }
 
-// Returns how much memory the device's limits leave for voxels, and the name of the limit.
+// Returns the memory available for voxels under the device's limits, and the name of the decisive
+// limit.
 technique::Room room_of(const Gpu& gpu, const measure::VolumeWork& work) {
   const scene::VoxelFormat format = work.scene.grid->format;
   if (is_packed(work)) {

@@ -54,7 +54,8 @@ class Techniques(unittest.TestCase):
                                    lambda at: float(at["step"]),
                                    without=lambda at: at == {"device": "b", "data": "y", "step": "2"})
         means = choice.mean_values(data, "data", "device")
-        # Device b lacks a measurement with step 2, so only step 1 may be used. Otherwise, the other means would be larger.
+        # Device b lacks a measurement with step 2, so only step 1 may be used. With step 2, the other three means would be
+        # larger.
         self.assertEqual(list(means["mean_ms"]), [1] * 4)
         self.assertEqual(set(means["held"]), {"step=1"})
         self.assertTrue(choice.mean_values(data, "data", "technique").empty)

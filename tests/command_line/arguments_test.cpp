@@ -104,7 +104,7 @@ TEST_F(Arguments, InvalidUtf8IsRejectedWithItsPosition) {
   const Result listed = program.run("list bytes.yaml --json");
   EXPECT_EQ(listed.code, 3);
   EXPECT_THAT(listed.output, HasSubstr("bytes.yaml:2:8: 'data'"));
-  // The name of a plan is that of its file, which may contain any bytes.
+  // The name of a plan is taken from the name of its file, which may contain any bytes.
   program.write("p\xff.yaml", one_step_plan);
   const Result named = program.run("list 'p\xff.yaml' --json");
   EXPECT_EQ(named.code, 0) << named.output;

@@ -37,7 +37,7 @@ TEST(Auto, ReportsTheFastestAndTheRatio) {
   }
   expect_found(result, " clock); ");
   expect_found(result, "polygon_adaptive ");
-  // The result is read from the store, whatever the device would measure now.
+  // The result comes from the store, although a new measurement would have a different result.
   expect_found(program.run(run + " --resume", fast("point")), ": tiles is the fastest, ");
   expect_found(program.run("run plan --device null:scripted --store t.sqlite", fast("point")),
                ": point is the fastest, ");

@@ -1,5 +1,5 @@
-// Tests that in a plan that both counts instructions and judges images, the two come from the same
-// frames.
+// Tests that if a plan both counts instructions and judges images, the counts and the images come
+// from the same frames.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

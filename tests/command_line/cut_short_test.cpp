@@ -1,5 +1,5 @@
-// Tests that a run that was cut short does not pass, and neither does a machine that lost a device
-// or a plan that lost a check.
+// Tests that none of the following passes: a run that was cut short, a machine that lost a device,
+// and a plan that lost a check.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -72,8 +72,7 @@ TEST_F(Diff, APlanInOnlyOneStoreCannotBeJudged) {
   EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy exists only in b"));
 }
 
-// The driver could not draw anything, neither before nor after the update. That must not count as a
-// pass.
+// The driver could draw nothing, either before or after the update. That must not count as a pass.
 TEST_F(Diff, NothingMeasuredCannotBeJudged) {
   for (const char* store : {"old.sqlite", "new.sqlite"}) {
     const Result run =

@@ -46,8 +46,8 @@ TEST(Error, IsMetByTheFastestCandidate) {
       << kept.output;
 }
 
-// An image with few rows must not be searched with a row of a few pixels, because such a row
-// reveals nothing about the image.
+// The step size for a very wide image must not be determined from a row of only a few pixels,
+// because such a row reveals nothing about the image.
 TEST(Error, IsMetForAVeryWideImage) {
   const Program program;
   const Result kept = program.run(
@@ -98,8 +98,8 @@ TEST(Error, OutOfReachInOneSceneStillMeasuresTheOthers) {
   EXPECT_NE(result.output.find("of 1e-12:max"), std::string::npos) << result.output;
 }
 
-// If the plan leaves the sampler to the device, the quadrature `cells` uses another sampler than
-// the midpoint rule.
+// If the plan leaves the sampler to the device, the quadrature `cells` and the midpoint rule use
+// different samplers.
 TEST(Error, HasOneResultWhateverSamplersTheCandidatesUse) {
   const Program program;
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.0001",

@@ -7,7 +7,7 @@
 namespace triptych::command_line {
 namespace {
 
-// Three configurations, of which the one with step 0.5 has the fault.
+// Options for three configurations. The configuration with step 0.5 has the fault.
 const std::string three =
     std::string("run volume/quick ") + tiny + " --set step=0.25,0.5,1 --store s.sqlite";
 

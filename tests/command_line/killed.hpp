@@ -21,7 +21,7 @@ namespace triptych::command_line {
 struct Ending {
   bool traced = true;  // false if tracing is not permitted on this machine, so that nothing was run
   bool killed = false;
-  long calls = 0;  // how often the first thread entered the kernel or returned from it
+  long calls = 0;  // number of times that the first thread entered or left the kernel
 };
 
 namespace killed_detail {

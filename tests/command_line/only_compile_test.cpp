@@ -42,7 +42,7 @@ class OnlyCompile : public testing::Test {
   Program program;
 };
 
-// On such a device, images would be black and times meaningless.
+// On a device that only compiles, images would be black and times meaningless.
 TEST_F(OnlyCompile, DrawsNothing) {
   const Result result = on("run drawn.yaml --verbose");
   EXPECT_EQ(result.code, 2) << result.output;

@@ -114,7 +114,8 @@ TEST(Usage, AnUnknownApiReportsHowItsWorkerEnded) {
                  "the worker exited with code 3; the worker's last output: triptych: unknown API");
 }
 
-// Each command names its own option for resuming.
+// The message of an interrupted command suggests the option with which that command can be resumed,
+// if there is one.
 TEST(Usage, AnInterruptSuggestsResumeIfPossible) {
   const Program program;
   const std::string hang = std::string("--set data=generate:gaussian_blob:16 --set viewport=16 ") +

@@ -100,8 +100,7 @@ class Window(unittest.TestCase):
                 self.assertEqual(frame["factors"]["camera"], "view:30/20/0.8")
                 self.assertEqual(frame["counters"], column["counters"])
                 self.assertTrue(column["time_ns"]["samples"])
-                # The verdict about the difference must be the same as that of `render --truth`, also for an injected
-                # fault.
+                # The verdict about the difference must be the same as that of `render --truth`, even with an injected fault.
                 self.assertEqual(column["difference"]["with"], "reference")
                 self.assertEqual(column["difference"]["right"], code == 0)
                 self.assertEqual(column["difference"]["beyond"] > 0, code == 1)

@@ -213,7 +213,7 @@ TEST(CountedAsTimed, BothBuildsRejectTheSameFragmentsEarly) {
 // If a program rejects fragments early in its own code, it does not count the rejected fragments.
 TEST(CountedAsTimed, FragmentsRejectedEarlyAreNotCounted) {
   on_every_driver([](measure::Device& device) {
-    // On other APIs, the rasterizer is part of the driver.
+    // With the other APIs, the rasterizer is part of the driver.
     if (device.info().api != "opencl") return;
     ParticleWork work = generated_work("uniform", 20000, "orbit_y:1/8", 96);
     work.scene.radius_scale = 3;

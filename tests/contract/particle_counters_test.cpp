@@ -48,8 +48,9 @@ TEST(ParticleCounters, AddUp) {
   });
 }
 
-// Sprites of every shape cover the sphere's disc, so all keep the same number of fragments. A
-// polygon with more corners wastes fewer fragments (S6). Tiles process no fragment behind a hit.
+// Sprites of every shape cover the sphere's disc, so the same number of fragments is kept for every
+// shape. A polygon with more corners wastes fewer fragments (S6). Tiles process no fragment behind
+// a hit.
 TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = generated_work("uniform", 100, "orbit_y:1/8", 256);

@@ -143,7 +143,8 @@ TEST(Particles, AllTechniquesAndOptionsAreBitIdentical) {
   });
 }
 
-// A hierarchy that is rebuilt or refitted in every frame must lead to the same spheres.
+// If a hierarchy is rebuilt or refitted in every frame, rays must find the same spheres as in a
+// hierarchy that is built once.
 TEST(Particles, StructuresBuiltInEveryFrameAreBitIdentical) {
   using technique::Structure;
   on_every_driver([](measure::Device& device) {

@@ -50,7 +50,7 @@ TEST(SameWork, EarlyTerminationThatNoRayReaches) {
     auto& ert = std::get<measure::VolumeWork>(ending.scene).options.ert;
     ert = 0.99 * least;
     expect_same_work(device, never, ending);
-    ert = 1.01 * least;  // makes a difference for at least one ray
+    ert = 1.01 * least;  // ends at least one ray early
     EXPECT_NE(counts_of(device, never), counts_of(device, ending));
   });
 }

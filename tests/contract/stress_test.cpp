@@ -1,4 +1,4 @@
-// The cases of the stress catalogue that need more than a single image: a hundred transfer
+// Tests the cases of the stress catalogue that need more than a single image: a hundred transfer
 // functions, a hundred repeats, denormals.
 
 #include <algorithm>
@@ -43,7 +43,7 @@ core::Image draw_skipping(measure::Device& device, measure::Work work, technique
   return draw(device, work);
 }
 
-// Case 28: skipping does not change a bit, whatever the transfer function is.
+// Case 28: for every transfer function, images with and without skipping must be bit-identical.
 TEST(Stress, AHundredTransferFunctions) {
   const auto edit = stress_data("stress:edit:1");
   on_every_device([&](measure::Device& device) {

@@ -9,7 +9,7 @@
 namespace triptych::layer {
 namespace {
 
-// Draws one instance less or, if there is only one instance, one vertex less.
+// Draws one instance too few or, if there is only one instance, one vertex too few.
 VKAPI_ATTR void VKAPI_CALL short_draw(VkCommandBuffer commands, std::uint32_t vertices,
                                       std::uint32_t instances, std::uint32_t first_vertex,
                                       std::uint32_t first_instance) {

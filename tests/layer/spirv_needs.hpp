@@ -1,5 +1,5 @@
 #pragma once
-// What a shader requires of the device, read from its SPIR-V.
+// The features and limits that a shader requires of the device, read from its SPIR-V.
 
 #include <array>
 #include <cstdint>

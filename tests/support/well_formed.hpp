@@ -15,8 +15,8 @@ class XmlCheck {
  public:
   explicit XmlCheck(std::string_view text) : rest_(text) {}
 
-  // Returns an empty string if the document is well-formed; otherwise what is wrong and the text
-  // that follows.
+  // Returns an empty string if the document is well-formed; otherwise a description of the first
+  // fault, and the text that follows it.
   [[nodiscard]] std::string fault() {
     while (fault_.empty() && !rest_.empty()) {
       if (rest_.front() == '<') {

@@ -32,8 +32,8 @@ TEST(GlDevices, ListingTwiceGivesTheSameDevices) {
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
   for (const std::string& id : all) {
     EXPECT_THAT(id, MatchesRegex("gl:[a-z0-9_]+.*"));
-    // The machine has only one processor, so llvmpipe must be listed once, no matter in how many
-    // ways EGL offers it.
+    // The machine has only one CPU, so llvmpipe must be listed once, no matter in how many ways EGL
+    // offers it.
     EXPECT_FALSE(id.starts_with("gl:llvmpipe") && id.ends_with("#2")) << id;
   }
 }

@@ -99,8 +99,8 @@ TEST(OpenClFrames, CountersMatchTheHost) {
       const auto counts =
           device.prepare(make_work(technique, scene, options))->frame(Purpose::counters).counts;
       EXPECT_EQ(counts.at("rays"), 61U * 47U);
-      // If the length of a ray is a whole number of steps up to round-off, its count may differ by
-      // one.
+      // If the length of a ray is a whole number of steps, apart from round-off, its sample count
+      // may differ by one.
       const auto off =
           static_cast<double>(counts.at("samples")) - static_cast<double>(expected.samples);
       EXPECT_LE(std::abs(off), 1e-4 * static_cast<double>(expected.samples));

@@ -56,7 +56,8 @@ TEST(VulkanFrames, CountersMatchTheHost) {
       EXPECT_EQ(counts.at("rays"),
                 static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height));
       EXPECT_EQ(counts.at("rays_hit"), expected.rays_hit);
-      // A ray whose length is a whole number of steps up to round-off may have one more sample.
+      // If the length of a ray is a whole number of steps, apart from round-off, the ray may take
+      // one more sample.
       EXPECT_NEAR(static_cast<double>(counts.at("samples")), static_cast<double>(expected.samples),
                   1e-4 * static_cast<double>(expected.samples));
       EXPECT_EQ(counts.at("bricks_visited"), 0U);

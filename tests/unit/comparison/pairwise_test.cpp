@@ -303,7 +303,7 @@ TEST(Confirm, OneProcessRunHasNoScatter) {
   EXPECT_EQ(confirmed[2].verdict, PairVerdict::slower);
 }
 
-// Provides given results of process runs to the confirmation, one process run at a time.
+// Passes given results to the confirmation, one process run at a time.
 struct ProcessRuns {
   std::vector<std::vector<double>> process_runs;
   std::vector<std::vector<std::size_t>> asked;  // the suspects that each process run measured

@@ -214,7 +214,7 @@ TEST_F(GateTest, DevicesWithoutStatisticsAreSkipped) {
   EXPECT_EQ(skipped[0].device, "opencl:pocl");
 }
 
-// The verdict on the whole run
+// Tests of the verdict on the whole run
 
 TEST(GateResultTest, Precedence) {
   const auto code = [](std::vector<Verdict> verdicts) {

@@ -116,7 +116,7 @@ TEST_F(KnownGateTest, AFileWithAMistakeIsRejected) {
   }
 }
 
-// Drawing failed configurations again
+// Tests in which failed configurations are drawn again
 
 TEST_F(KnownGateTest, AFailureThatDoesNotRepeatIsAFlakeAndDoesNotPass) {
   add_run("b", wrong_image_on(known_device));

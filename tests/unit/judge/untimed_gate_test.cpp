@@ -1,5 +1,5 @@
-// In runs that only check images and counters, values that were not measured are neither judged nor
-// accepted.
+// Tests runs that only check images and counters: values that were not measured are neither judged
+// nor accepted.
 
 #include <gmock/gmock.h>
 

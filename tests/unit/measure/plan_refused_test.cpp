@@ -117,7 +117,7 @@ TEST_F(PlanTest, FilesThatAreNotPlans) {
   EXPECT_THAT(refusal("suite: fake\nname: x\n"), HasSubstr("unknown factor 'name'"));
 }
 
-// For such a token at the root, yaml-cpp would return empty documents forever.
+// If a document begins with one of these tokens, yaml-cpp would return empty documents forever.
 TEST_F(PlanTest, TokensThatCannotBeginADocument) {
   EXPECT_THAT(refusal(",\n"), AllOf(StartsWith(at(1, 1)), HasSubstr("not valid YAML")));
   EXPECT_THAT(refusal("&R, x\n"), HasSubstr("not valid YAML"));

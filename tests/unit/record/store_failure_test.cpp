@@ -185,8 +185,8 @@ TEST_F(StoreTest, DamagedColumn) {
       ThrowsMessage<core::InputError>(AllOf(StartsWith(file_.string()), HasSubstr("is damaged"))));
 }
 
-// SQLite limits values to 10⁹ bytes. Computing the seal of such a string would still take minutes
-// and several times as much memory.
+// SQLite limits values to 10⁹ bytes. Computing the seal of a string of that size would still take
+// minutes and several times as much memory.
 TEST_F(StoreTest, AStringOfManyMegabytesIsRejected) {
   make_store(file_);
   SQLite::Database(file_.string(), SQLite::OPEN_READWRITE)

@@ -23,8 +23,8 @@ class Reduce : public testing::Test {
   [[nodiscard]] Configuration configuration(const measure::Overrides& overrides) const {
     return measure::default_plan(*suite, overrides).configurations.front();
   }
-  // Reduces `start`. Exactly the configurations for which `fails` returns true fail, all in the
-  // same way.
+  // Reduces `start`. A configuration fails if and only if `fails` returns true for it, and all
+  // failures are of the same kind.
   [[nodiscard]] Reduction reduce_from(const Configuration& start,
                                       const std::function<bool(const Configuration&)>& fails,
                                       int most_frames = 1000) const {
@@ -65,7 +65,7 @@ TEST_F(Reduce, LevelsThatTheFaultNeedsAreKept) {
                                             {"ert", {"0"}}}));
 }
 
-// Sometimes one factor can be simplified only after another factor has been.
+// Some factors can be simplified only after another factor has been simplified.
 TEST_F(Reduce, FactorsAreTriedAgainAfterOthersWereSimplified) {
   const Reduction result = reduce_from(
       configuration({{"adapt", {"0.1"}}, {"skip", {"bricks"}}}), [](const Configuration& each) {

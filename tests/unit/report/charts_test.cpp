@@ -1,4 +1,4 @@
-// Tests what the charts show.
+// Tests the contents of the charts.
 
 #include "report/page/charts.hpp"
 

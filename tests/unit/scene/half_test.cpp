@@ -30,8 +30,8 @@ TEST(Half, HasTheValuesOfTheStandard) {
   EXPECT_EQ(value_of(0xc000), -2);
 }
 
-// A number between two half floats is rounded to the nearest. Halfway cases are rounded to the even
-// one.
+// A number between two half floats is rounded to the nearer one. A number halfway between them is
+// rounded to the one whose last bit is 0.
 TEST(Half, RoundsToTheNearest) {
   for (unsigned bits = 0; bits < 0x7bff; ++bits) {
     const double below = value_of(bits);

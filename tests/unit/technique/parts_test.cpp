@@ -85,7 +85,8 @@ TEST(Parts, BeginAtTheEyeAndGoOutwards) {
   }
 }
 
-// A part must hold the voxels of whole steps, because a preintegrated step reads both of its ends.
+// A part must contain the voxels of whole steps, because a preintegrated step reads the values at
+// both of its ends.
 TEST(Parts, ContainWholeSteps) {
   scene::VolumeScene scene = scene_of(50);
   scene.quadrature = scene::Quadrature::preintegrated;

@@ -21,8 +21,8 @@ namespace {
 using Texel = std::array<float, 4>;
 using Colour = std::array<float, 3>;
 
-// As the largest optical depth of a piece, this value disables the splitting: all whole cells are
-// taken at once, as in an earlier version of the shader.
+// A limit on the optical depth of a piece that disables splitting: all whole cells are processed at
+// once, as in an earlier version of the shader.
 constexpr float any_depth = 1e30F;
 
 class Step {
