@@ -210,7 +210,7 @@ bool is_shaded(AnalyticProblem problem) {
 
 AnalyticScene analytic_scene(AnalyticProblem problem, const AnalyticOptions& options) {
   if (*std::min_element(options.size.begin(), options.size.end()) < 1) {
-    throw core::InputError("an analytic scene needs at least one voxel per axis");
+    throw core::InputError("an analytic scene needs at least one voxel along each axis");
   }
   if (problem == AnalyticProblem::v6_layers && options.size[2] % 2 != 0) {
     throw core::InputError("v6_layers needs an even number of voxels along z");

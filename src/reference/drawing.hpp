@@ -24,7 +24,8 @@ inline void check(const scene::VolumeScene& scene) {
   const scene::VoxelGrid& grid = *scene.grid;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (grid.size[axis] < 1 || !(grid.spacing[axis] > 0)) {
-      throw core::InputError("a volume needs at least one voxel and a positive spacing per axis");
+      throw core::InputError(
+          "a volume needs at least one voxel and a positive spacing along each axis");
     }
   }
   if (grid.data.size() != grid.voxel_count() * scene::bytes_of(grid.format)) {

@@ -26,8 +26,9 @@ SphereTree::SphereTree(const scene::ParticleScene& scene, double growth)
     const auto& [x, y, z, unscaled] = set.spheres[i];
     const float radius = scene.radius(i);
     if (!std::isfinite(radius)) {
-      throw core::InputError(fmt::format("radius {} times radius_scale {} is not finite", unscaled,
-                                         scene.radius_scale));
+      throw core::InputError(
+          fmt::format("the product of radius {} and radius_scale {} is not finite", unscaled,
+                      scene.radius_scale));
     }
     if (radius > 0) spheres_.push_back({{x, y, z}, radius, static_cast<std::uint32_t>(i)});
   }

@@ -58,7 +58,7 @@ TEST_F(Arguments, EveryGlobMustMatchADevice) {
 TEST_F(Arguments, APlanWithoutAName) {
   const Result result = program.run("run ''");
   EXPECT_EQ(result.code, 3);
-  EXPECT_THAT(result.output, HasSubstr("no plan is named"));
+  EXPECT_THAT(result.output, HasSubstr("no plan was given"));
 }
 
 TEST_F(Arguments, BaselinesWithoutAName) {

@@ -38,9 +38,13 @@ TEST(Error, IsMetByTheFastestCandidate) {
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.001",
                                   drawing_the_limit(program, {blob}, "16"));
   EXPECT_EQ(kept.code, 0) << kept.output;
-  EXPECT_NE(kept.output.find("midpoint meets the error with step"), std::string::npos) << kept.output;
-  EXPECT_NE(kept.output.find("preintegrated meets the error with step"), std::string::npos);
-  EXPECT_EQ(kept.output.find("own meets the error"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("midpoint meets the step-size error limit with step"),
+            std::string::npos)
+      << kept.output;
+  EXPECT_NE(kept.output.find("preintegrated meets the step-size error limit with step"),
+            std::string::npos);
+  EXPECT_EQ(kept.output.find("own meets the step-size error limit"), std::string::npos)
+      << kept.output;
   EXPECT_NE(kept.output.find("of 0.001:rms"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("% of the error of an empty image, covered"), std::string::npos)
       << kept.output;
@@ -91,8 +95,9 @@ TEST(Error, OutOfReachInOneSceneStillMeasuresTheOthers) {
   const Result result = program.run(plan, drawing_the_limit(program, {constant}, "16"));
   EXPECT_EQ(result.code, 2) << result.output;
   EXPECT_NE(result.output.find(
-                "data=generate:mandelbulb:16,technique=raycast,viewport=16: no step size meets an "
-                "error of 7e-13, the step-size share of 1e-12:max; the smallest error is"),
+                "data=generate:mandelbulb:16,technique=raycast,viewport=16: no step size meets the "
+                "step-size error limit of 7e-13, a share of the requested error 1e-12:max; the "
+                "smallest error is"),
             std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find("of 1e-12:max"), std::string::npos) << result.output;
@@ -105,7 +110,8 @@ TEST(Error, HasOneResultWhateverSamplersTheCandidatesUse) {
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.0001",
                                   drawing_the_limit(program, {blob}, "16"));
   EXPECT_EQ(kept.code, 0) << kept.output;
-  EXPECT_NE(kept.output.find("cells meets the error with step"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("cells meets the step-size error limit with step"), std::string::npos)
+      << kept.output;
   const std::string answer = ": adapt=0, ";
   const std::size_t first = kept.output.find(answer);
   EXPECT_NE(first, std::string::npos) << kept.output;

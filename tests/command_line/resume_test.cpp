@@ -33,7 +33,7 @@ TEST_F(Resume, AnotherPlanWithTheSameNameIsRejected) {
   const Result other = run("other/p.yaml --resume");
   EXPECT_EQ(other.code, 3) << other.output;
   EXPECT_THAT(other.output, HasSubstr("step=0.5"));
-  EXPECT_THAT(other.output, HasSubstr("another plan with the same name"));
+  EXPECT_THAT(other.output, HasSubstr("a different plan has the same name"));
   program.write("one/p.yaml", std::string(tiny_plan) + "step: [0.5, 0.7]\n");
   const Result longer = run("one/p.yaml --resume");
   EXPECT_THAT(longer.output, HasSubstr("2 measured, 0 skipped, 0 failed"));

@@ -24,7 +24,7 @@ class Redirected {
         before_(::dup(STDERR_FILENO)),
         lines_(BUFSIZ) {
     if (!file_ || !before_)
-      throw core::IoError("cannot redirect standard error to a file in memory");
+      throw core::IoError("cannot redirect standard error to an in-memory file");
     std::fflush(stderr);
     ::dup2(file_.get(), STDERR_FILENO);
     std::setvbuf(stderr, lines_.data(), _IOLBF, lines_.size());

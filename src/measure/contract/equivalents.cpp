@@ -28,7 +28,7 @@ std::string reason_for(const PlainWork& known, const PlainWork& wanted, double t
   if (known.ends_below != wanted.ends_below) {
     reasons.push_back(fmt::format("ert: no ray's transmittance falls below {:.3g}", transmittance));
   }
-  return reasons.empty() ? "the levels have the same effect on this device"
+  return reasons.empty() ? "the differing levels have the same effect on this device"
                          : fmt::format("{}", fmt::join(reasons, "; "));
 }
 

@@ -44,7 +44,7 @@ Factor text(std::string name, std::string standard, std::string summary) {
 Factor technique_factor(std::string_view suite, std::string standard, std::string summary) {
   Factor factor =
       choice("technique", {}, std::move(standard), Decides::how_it_is_made,
-             std::move(summary) + "; auto: measures all of them and reports the fastest");
+             std::move(summary) + "; auto: measure all techniques and report the fastest");
   for (const technique::Technique& each : technique::catalogue()) {
     if (each.suite != suite) continue;
     factor.levels.push_back(each.id);

@@ -45,17 +45,17 @@ std::string tool_file() {
 }
 
 std::variant<Emulator, std::string> look() {
-  constexpr std::string_view cannot = "instructions cannot be counted";
+  constexpr std::string_view cannot = "cannot count instructions";
 #ifndef __x86_64__
-  return fmt::format("{}: this requires an x86-64 processor", cannot);
+  return fmt::format("{}: counting requires an x86-64 CPU", cannot);
 #endif
   const auto version = output_of({"valgrind", "--version"});
   if (!version)
-    return fmt::format("{}: Valgrind cannot be started; install the package valgrind", cannot);
+    return fmt::format("{}: Valgrind does not start; install the package valgrind", cannot);
   const std::string tool = tool_file();
   if (tool.empty()) {
-    return fmt::format(
-        "{}: Triptych's tool for Valgrind is missing; build the target triptych_counter", cannot);
+    return fmt::format("{}: Triptych's Valgrind tool is missing; build the target triptych_counter",
+                       cannot);
   }
   Emulator found{.name = fmt::format("valgrind {} {}", short_version(*version), processor_name()),
                  // The name of the tool determines which libraries Valgrind preloads. With "none"
@@ -71,7 +71,7 @@ std::variant<Emulator, std::string> look() {
   std::vector<std::string> trial = found.command;
   trial.emplace_back("/bin/true");
   if (!output_of(trial, found.environment))
-    return fmt::format("{}: {} cannot run /bin/true", cannot, tool);
+    return fmt::format("{}: the Valgrind tool {} failed to run /bin/true", cannot, tool);
   return found;
 }
 

@@ -148,7 +148,7 @@ struct PlanSource {
 
 PlanSource read_plan_file(const std::filesystem::path& file) {
   if (file.empty()) {
-    throw core::InputError("no plan is named; expected a YAML file or SUITE/PLAN");
+    throw core::InputError("no plan was given; expected a YAML file or SUITE/PLAN");
   }
   try {
     return {.name = plan_name(file.string()),
@@ -289,7 +289,7 @@ void require_few(const Combinations& combinations, const std::vector<core::FileP
     throw core::InputError(
         places[i],
         fmt::format("the plan has more than {} combinations, and this factor has the most values; "
-                    "shorten its list, measure shards (--shard i/n), or split the plan",
+                    "shorten its list, measure the plan in shards (--shard i/n), or split the plan",
                     most));
   }
 }

@@ -121,8 +121,8 @@ record::Checks checks_of(const std::vector<PlacedText>& names) {
   }
   if (checks.contains(record::Check::code) && checks.size() > 1) {
     throw core::InputError(names.front().place,
-                           "'checks': code cannot be combined with other checks, because nothing "
-                           "is drawn for it; write two separate plans");
+                           "'checks': code cannot be combined with other checks, because it only "
+                           "compiles and draws nothing; write two separate plans");
   }
   return checks;
 }
@@ -135,7 +135,7 @@ class Keys {
     const auto [first, added] = seen_.emplace(key.text, key.place);
     if (!added) {
       throw core::InputError(
-          key.place, fmt::format("'{}' is given twice; the first entry is in line {}", key.text,
+          key.place, fmt::format("'{}' is given twice; the first entry is on line {}", key.text,
                                  first->second.line));
     }
   }

@@ -57,15 +57,15 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
       percent(trust.ratio_low), percent(trust.ratio_high), frames, wall_ns * 1e-6);
   if (trust.trusted) return "trusted: " + seen;
   if (trust.ratio_high <= 0) {
-    return fmt::format("not trusted: the device clock reads 0 for {} frames of {:.3g} ms", frames,
-                       wall_ns * 1e-6);
+    return fmt::format("not trusted: the device clock measured 0 ns for {} frames of {:.3g} ms",
+                       frames, wall_ns * 1e-6);
   }
   const std::string limits =
-      fmt::format("a trusted clock must show {} to {}", percent(ClockLimits::least_ratio),
-                  percent(ClockLimits::most_ratio));
+      fmt::format("it must be {} to {} for the clock to be trusted",
+                  percent(ClockLimits::least_ratio), percent(ClockLimits::most_ratio));
   const bool is_short = wall_ns < ClockLimits::least_frame_ns / 4 && trust.ratio < 1;
   return fmt::format("not trusted: {}; {}{}", seen, limits,
-                     is_short ? ", but such short frames are not conclusive" : "");
+                     is_short ? ", but frames this short are inconclusive" : "");
 }
 
 // Makes the frames of a work take longer, by finer steps along the rays or by more pixels for the
@@ -126,18 +126,20 @@ record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
     const bool last = i + 1 == frames;
     const Frame frame = last ? proof.draw(Purpose::timing) : prepared.frame(Purpose::timing);
     if (last) proof.check("the last frame of the clock calibration");
-    if (!frame.device_ns) return without_time(work_kind, "not trusted: the device reports no time");
+    if (!frame.device_ns)
+      return without_time(work_kind, "not trusted: the device reports no frame times");
     if (std::isnan(*frame.device_ns)) {
       record::ClockTrust trust =
-          without_time(work_kind, "not trusted: the driver never wrote a time stamp");
+          without_time(work_kind, "not trusted: the driver never wrote a timestamp");
       trust.offered = true;
       trust.ratio = trust.ratio_low = trust.ratio_high = never_written;
       return trust;
     }
     if (!(frame.wall_ns > 0) || !std::isfinite(*frame.device_ns)) {
-      return without_time(work_kind,
-                          fmt::format("not trusted: {} ns of device time in {} ns of wall time",
-                                      *frame.device_ns, frame.wall_ns));
+      return without_time(
+          work_kind,
+          fmt::format("not trusted: the device clock measured {} ns during {} ns of wall time",
+                      *frame.device_ns, frame.wall_ns));
     }
     ratios.push_back(*frame.device_ns / frame.wall_ns);
     wall_ns.push_back(frame.wall_ns);

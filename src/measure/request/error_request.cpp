@@ -96,17 +96,18 @@ class Search {
       const Found found = longest_step(candidate, limit->image);
       candidate["step"] = text_of_step(found.step);
       const bool keeps = found.error <= step_error_;
-      tell_(fmt::format("{}: {} {} with step {}, whose error is {:.2g} ({})", name, quadrature,
-                        keeps ? "meets the error" : "does not meet the error even",
+      tell_(fmt::format("{}: quadrature={} {} step={} (error {:.2g}, {})", name, quadrature,
+                        keeps ? "meets the step-size error limit with"
+                              : "exceeds the step-size error limit even with",
                         candidate.at("step"), found.error, name_of(request_.metric)));
       if (keeps) add_candidates(candidate, result.plan);
       if (!least || found.error < least->error) least = found;
     }
     if (result.plan.configurations.size() > before) return;
-    result.out_of_reach.push_back(fmt::format(
-        "{}: no step size meets an error of {:.3g}, the step-size share of {}; the smallest "
-        "error is {:.3g}, in an image of {} pixels",
-        name, step_error_, text_of(request_), least->error, least->viewport));
+    result.out_of_reach.push_back(
+        fmt::format("{}: no step size meets the step-size error limit of {:.3g}, a share of the "
+                    "requested error {}; the smallest error is {:.3g}, at viewport={}",
+                    name, step_error_, text_of(request_), least->error, least->viewport));
   }
 
  private:
@@ -219,7 +220,8 @@ ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const Reques
                            Truths& truths, const std::function<void(const std::string&)>& tell) {
   if (plan.counted()) {
     throw core::InputError(fmt::format(
-        "--error requires a plan that measures times, but plan {} counts instructions", plan.name));
+        "--error requires a plan that measures frame times, but plan {} counts instructions",
+        plan.name));
   }
   ErrorRequest result{.plan = plan, .out_of_reach = {}};
   result.plan.checks.insert(record::Check::timing);

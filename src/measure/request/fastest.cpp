@@ -84,7 +84,7 @@ FastestAnswer answer_of(const std::vector<const Record*>& records,
 
 std::string praise(const Contestant& contestant, Ruler ruler) {
   if (ruler == Ruler::instructions) {
-    return fmt::format("takes the fewest instructions, {:.1f} million", contestant.amount / 1e6);
+    return fmt::format("executes the fewest instructions, {:.1f} million", contestant.amount / 1e6);
   }
   return fmt::format("is the fastest, {:.3f} ms (median {:.3f}, {} clock)", contestant.amount / 1e6,
                      contestant.usually / 1e6, ruler == Ruler::device_clock ? "device" : "wall");
@@ -141,14 +141,16 @@ FastestTried try_for_fastest(Plan plan, const Suite& suite,
 std::string describe(const FastestAnswer& answer, const std::set<std::string>& chosen) {
   std::string text = fmt::format("{} {}: ", answer.device, answer.scene);
   if (answer.contestants.empty()) {
-    text += "no technique was measured, so none can be chosen";
+    text += "no technique was measured, so none can be recommended";
   } else {
     const Contestant& best = answer.contestants.front();
+    const bool counted = answer.ruler == Ruler::instructions;
     text += fmt::format("{} {}", chosen_levels(*best.record, chosen), praise(best, answer.ruler));
     for (std::size_t i = 1; i < answer.contestants.size(); ++i) {
       const Contestant& each = answer.contestants[i];
-      text += fmt::format("{}{} takes {:.2f} times that{}", i == 1 ? "; " : ", ",
-                          chosen_levels(*each.record, chosen), each.amount / best.amount,
+      text += fmt::format("{}{} {} {:.2f} times as {}{}", i == 1 ? "; " : ", ",
+                          chosen_levels(*each.record, chosen), counted ? "executes" : "takes",
+                          each.amount / best.amount, counted ? "many" : "long",
                           each.amount <= best.usually ? " (equally fast)" : "");
     }
   }

@@ -40,11 +40,11 @@ void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& 
   }
   for (const record::Record& record : store.records(run.id)) {
     if (keys.contains(record.configuration)) continue;
-    throw core::InputError(
-        fmt::format("run {} of plan {} contains {}, which this plan does not contain, because the "
-                    "plan has changed or is another plan with the same name; leave out --resume to "
-                    "start a new run",
-                    run.id, plan.name, record.configuration));
+    throw core::InputError(fmt::format(
+        "cannot resume run {} of plan {}: the run contains {}, which is not in this plan "
+        "(the plan has changed, or a different plan has the same name); omit --resume to "
+        "start a new run",
+        run.id, plan.name, record.configuration));
   }
 }
 
@@ -275,8 +275,8 @@ std::string describe(const RunResult& result, const std::string& plan, const std
   }
   if (result.taken_over > 0) {
     text += fmt::format(
-        "{} of them reused the frames of an equivalent configuration; --measure-every measures "
-        "them too\n",
+        "{} of them reused the frames of an equivalent configuration; use --measure-every to "
+        "measure them as well\n",
         result.taken_over);
   }
   return text;

@@ -122,9 +122,9 @@ CacheFolder::CacheFolder(std::string_view device_id) {
       reasons += fmt::format("; {}", error.what());
     }
   }
-  throw core::IoError(fmt::format(
-      "no cache folder can be used for {}; set XDG_CACHE_HOME to a folder that belongs to you{}",
-      device_id, reasons));
+  throw core::IoError(
+      fmt::format("no usable cache folder for {}; set XDG_CACHE_HOME to a folder that you own{}",
+                  device_id, reasons));
 }
 
 core::PrivateFolder cache_folder(const std::string& name) {
@@ -137,7 +137,7 @@ core::PrivateFolder cache_folder(const std::string& name) {
       reasons += fmt::format("; {}", error.what());
     }
   }
-  throw core::IoError("no cache folder can be used" + reasons);
+  throw core::IoError("no usable cache folder" + reasons);
 }
 
 std::vector<std::string> worker_environment(std::string_view device_id, const CacheFolder& cache,

@@ -85,7 +85,7 @@ bool any_matches(const std::vector<std::string>& globs, const std::string& id) {
 // `listing`.
 void list_compiler(const std::string& id, Listing& listing) {
   constexpr const char* newer =
-      "but a newer driver may; for example, Mesa 25.0 in Debian 13 supports AMD's GPU families up "
+      "but a newer driver may; for example, Mesa 25.0 in Debian 13 supports AMD GPU families up "
       "to gfx1201";
   const std::string api = id.substr(0, id.find(':'));
   const auto refuse = [&](std::string reason) {
@@ -103,8 +103,8 @@ void list_compiler(const std::string& id, Listing& listing) {
     if (answer == nullptr) {
       // RADV aborts if it does not support the requested GPU family.
       listing.broken.push_back({.what = id,
-                                .reason = std::string("the installed driver exited without an "
-                                                      "answer; it may not support this GPU "
+                                .reason = std::string("the installed driver exited without "
+                                                      "responding; it may not support this GPU "
                                                       "family, ") +
                                           newer,
                                 .ended = reason_of(reply)});

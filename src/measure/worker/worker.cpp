@@ -49,7 +49,7 @@ technique::Work kind_named(std::string_view name) {
   for (const technique::Work kind : {technique::Work::compute, technique::Work::draw}) {
     if (technique::name_of(kind) == name) return kind;
   }
-  throw core::InputError(fmt::format("unknown kind of work '{}'", name));
+  throw core::InputError(fmt::format("unknown work type '{}'", name));
 }
 
 // Returns the protocol of the job, after adjusting the settings that depend on the work and the
@@ -336,7 +336,7 @@ class Worker {
   void count(const Job& job, const Work& work, Configuration configuration, Answer& answer) {
     if (!counter_) counter_ = InstructionCounter::of_this_process();
     if (!counter_)
-      throw core::NotSupported("this worker does not run under the instruction counter");
+      throw core::NotSupported("this worker is not running under the instruction counter");
     record::Counts prepare_cost;
     const Stopwatch measuring;
     const auto prepared = counter_->counting(prepare_cost, [&] { return device_->prepare(work); });

@@ -126,7 +126,7 @@ std::optional<record::DeviceFault> WorkerLink::finish() {
     static_cast<void>(process_.wait(patience));
     return record::DeviceFault{
         .kind = record::DeviceFaultKind::teardown_hang,
-        .detail = fmt::format("the process did not end within {} s", patience.count()),
+        .detail = fmt::format("the process did not exit within {} s", patience.count()),
         .last_words = last_words()};
   }
   if (is_ordered(*exit) || (exit->signal == 0 && exit->code == 0)) return std::nullopt;

@@ -27,7 +27,8 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
              "which pixels a sprite covers";
     case ParticleFault::missing_barrier:
       if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
-      return "the fault missing_barrier requires work-group barriers, which are not used here";
+      return "the fault missing_barrier requires work-group barriers, but this technique uses none "
+             "with this API";
     case ParticleFault::small_box:
       return "the fault small_box requires a hierarchy of boxes, which only ray techniques use";
     case ParticleFault::none:
@@ -66,11 +67,10 @@ std::optional<std::string> option_reason(std::string_view id, const ParticleOpti
   const Technique& technique = technique::technique(id);
   if (options.ray == ComputedAt::vertex) {
     if (technique.vertices == Vertices::one) {
-      return fmt::format("{} draws one vertex per sphere, so it can compute rays only per pixel",
-                         id);
+      return fmt::format("{} supports only ray=pixel, because it draws one vertex per sphere", id);
     }
     if (technique.vertices == Vertices::none) {
-      return fmt::format("{} draws no vertices, so it can compute rays only per pixel", id);
+      return fmt::format("{} supports only ray=pixel, because it draws no vertices", id);
     }
   }
   if (technique.asks_corners && options.corners < 4) {
@@ -78,7 +78,8 @@ std::optional<std::string> option_reason(std::string_view id, const ParticleOpti
   }
   if (technique.method == Method::rays) return fault_of_rays(options.fault);
   if (options.structure != Structure::built_once) {
-    return fmt::format("{} uses no hierarchy that it could refit or rebuild", id);
+    return fmt::format(
+        "{} supports only structure=static, because it has no hierarchy to refit or rebuild", id);
   }
   return fault_of_sprites(technique, options, rasterizer);
 }

@@ -183,7 +183,7 @@ std::optional<std::string> adapt_reason(std::string_view technique, const scene:
                                         const RaycastOptions& options) {
   if (!(options.adapt > 0)) return std::nullopt;
   if (!technique::technique(technique).picture) {
-    return fmt::format("adapt merges samples, but {} always takes every sample", technique);
+    return fmt::format("{} does not support adapt, because it never merges samples", technique);
   }
   if (scene.quadrature != scene::Quadrature::midpoint) {
     return "adapt requires quadrature=midpoint, the only quadrature that takes one sample in the "
@@ -194,8 +194,8 @@ std::optional<std::string> adapt_reason(std::string_view technique, const scene:
            "no bricks";
   }
   if (options.skip == Skip::distance) {
-    return "adapt requires skip=bricks, because the leaps of skip=distance cross several bricks "
-           "with different values";
+    return "adapt requires skip=bricks, because skip=distance leaps across several bricks with "
+           "different values";
   }
   return std::nullopt;
 }

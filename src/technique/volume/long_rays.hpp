@@ -50,7 +50,7 @@ inline constexpr std::int64_t most_cell_passes = 32'768;
 // The reason that is reported if a volume with such rays would have to be drawn in parts. This is
 // rejected because the loop then takes only one sample per iteration.
 inline constexpr std::string_view long_rays_in_parts =
-    "drawing this volume in parts would need one loop iteration per sample, and rays have more "
-    "samples than the number of iterations that some drivers allow; use a longer step";
+    "drawing this volume in parts would need one loop iteration per sample, which is more "
+    "iterations than some drivers allow; use a longer step";
 
 }  // namespace triptych::technique

@@ -179,7 +179,7 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   }
   if (!midpoint) {
     return fmt::format(
-        "quadrature={} exists only in single precision; precision=fp64 requires "
+        "quadrature={} is available only in single precision; precision=fp64 requires "
         "quadrature=midpoint",
         quadrature);
   }

@@ -42,13 +42,13 @@ TEST_F(FastestTest, HasTheFastestFrame) {
   ASSERT_EQ(answers().size(), 1U);
   EXPECT_EQ(text(),
             "null:a camera=orbit_y:0/8,data=cube: raycast_fragment is the fastest, 2.000 ms "
-            "(median 2.100, wall clock); raycast takes 2.00 times that");
+            "(median 2.100, wall clock); raycast takes 2.00 times as long");
 }
 
 TEST_F(FastestTest, ReportsEquallyFastTechniques) {
   add("raycast", {1.0e6, 1.1e6, 1.2e6});
   add("raycast_fragment", {1.05e6, 1.15e6, 1.3e6});
-  EXPECT_THAT(text(), HasSubstr("raycast_fragment takes 1.05 times that (equally fast)"));
+  EXPECT_THAT(text(), HasSubstr("raycast_fragment takes 1.05 times as long (equally fast)"));
 }
 
 TEST_F(FastestTest, TheFasterOfTwoMeasurementsCounts) {
@@ -58,7 +58,7 @@ TEST_F(FastestTest, TheFasterOfTwoMeasurementsCounts) {
   add("raycast", {1e6});
   add("raycast_fragment", {4e6});
   EXPECT_THAT(text(), HasSubstr(": raycast is the fastest, 1.000 ms"));
-  EXPECT_THAT(text(), HasSubstr("; raycast_fragment takes 2.00 times that"));
+  EXPECT_THAT(text(), HasSubstr("; raycast_fragment takes 2.00 times as long"));
   EXPECT_EQ(answers().at(0).contestants.size(), 2U);
 }
 
@@ -91,8 +91,8 @@ TEST_F(FastestTest, IsFoundWithOneClock) {
 TEST_F(FastestTest, HasTheFewestInstructionsIfTheyWereCounted) {
   add("raycast", {}).cost = {{"device_code", 5'000'000}, {"driver", 1'000'000}, {"libc", 9}};
   add("raycast_fragment", {}).cost = {{"device_code", 2'000'000}, {"driver", 2'000'000}};
-  EXPECT_THAT(text(), HasSubstr("raycast_fragment takes the fewest instructions, 4.0 million; "
-                                "raycast takes 1.50 times that"));
+  EXPECT_THAT(text(), HasSubstr("raycast_fragment executes the fewest instructions, 4.0 million; "
+                                "raycast executes 1.50 times as many"));
 }
 
 TEST_F(FastestTest, ReportsUnsupportedTechniques) {
