@@ -198,8 +198,9 @@ std::string residual_moved(const Observation& what) {
   if (what.number("configurations") > 1) {
     text += fmt::format(" in {:.0f} configurations", what.number("configurations"));
   }
-  return text + fmt::format("; the cost ratios to {} changed by more than they vary between runs",
-                            joined(what.names));
+  return text +
+         fmt::format("; the cost ratios to {} changed by more than their variation between runs",
+                     joined(what.names));
 }
 
 std::string off_the_line(const Observation& what) {
