@@ -41,7 +41,7 @@ struct PictureError {
 struct AccuracyScene {
   std::string device;
   std::string limit;  // LimitPicture::key; equal for scenes with the same limit image
-  std::string scene;  // "camera=…,data=…": the levels that all its records have in common
+  std::string scene;  // "camera=…,data=…": the levels that all its cases have in common
   std::string data;
   double uncertainty = 0;  // root mean square of the limit's uncertainty
   // Root mean square difference between the limit and the closed-form solution, which the voxel

@@ -88,8 +88,8 @@ struct Suspect {
 };
 inline constexpr std::size_t least_process_runs = 2;  // with fewer runs, their scatter is unknown
 
-// The looks of the confirmation. The second look is only for suspects that the first look leaves
-// undecided. Each look is allotted an equal share of `q`.
+// The design of the confirmation, which consists of two looks. Only suspects that the first look
+// leaves undecided are evaluated at the second look. Each look is allotted an equal share of `q`.
 struct ConfirmationDesign {
   std::array<std::size_t, 2> looks{5, 10};  // numbers of fresh process runs
   std::size_t blocks_per_process_run = 24;

@@ -1,4 +1,4 @@
-// Measures interleaved frame times of two sides.
+// Measures interleaved frame times for the two sides of a comparison.
 
 #include "comparison/times.hpp"
 

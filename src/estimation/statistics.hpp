@@ -18,7 +18,7 @@ inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 // Returns P(T > t) for Student's t distribution with `degrees` > 0 degrees of freedom. Infinite
 // degrees of freedom give the normal distribution.
 [[nodiscard]] double student_t_upper_tail(double t, double degrees);
-// Returns the t with P(T > t) = share, for share in (0, 1).
+// Returns the value t for which P(T > t) = share, for a share in (0, 1).
 [[nodiscard]] double student_t_upper_quantile(double share, double degrees);
 
 // Returns which hypotheses are rejected by the procedure of Benjamini & Hochberg (1995), which

@@ -34,7 +34,7 @@ struct StressCase {
 [[nodiscard]] const std::vector<StressCase>& stress_cases();
 
 using StressData = measure::StressChoice<StressCase>;
-// Returns the name of the data in a plan.
+// Returns the level of the factor `data` that selects this stress scene in a plan.
 [[nodiscard]] std::string name_of(const StressData& data);
 
 // Returns nullopt if `data` does not name a stress case. Throws InputError if the case or variant

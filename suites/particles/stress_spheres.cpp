@@ -128,8 +128,8 @@ StressScene stress_edges(std::string_view, scene::ColourKind colour) {
 }
 
 // All radii are a hundredth of a pixel. The spheres at the centre of every eighth pixel of every
-// eighth row are visible. No ray hits the spheres on pixel corners, which are offset from them by
-// about four pixels.
+// eighth row are visible. All other spheres are about four pixels away from them, on pixel corners,
+// where no ray hits them.
 StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking(oblique(), {0, 0, 0}, 60), stress_side, stress_side);
   for (int y = 4; y < stress_side; y += 8) {

@@ -5,8 +5,8 @@
 namespace triptych::volume_suite {
 
 // Integers that are stored as floats are rounded when they are normalised to 0…1. With fp32, this
-// error is smaller than the general error of single-precision arithmetic, so it is counted only with
-// fp64. error_model derives the error of half floats.
+// error is smaller than the general error of single-precision arithmetic, so it is counted only
+// with fp64. error_model derives the error of half floats.
 StorageError storage_error(const std::string& voxel, scene::VoxelFormat native, bool fits_halves,
                            technique::Precision precision) {
   if (voxel == "auto") return {};

@@ -1,8 +1,8 @@
 #pragma once
 // Volumes on which renderers often fail, each with the expected result. A plan selects a volume
 // with the level `stress:CASE` or `stress:CASE:VARIANT` of the factor `data`. Each case has its own
-// transfer function, camera, viewport, step, quadrature, shading and early termination, which the
-// factors with the level `own` use.
+// transfer function, camera, viewport, step, quadrature, shading and early termination, which apply
+// to the factors that have the level `own`.
 //
 // Every image must be within its bound of the reference image (tolerance.hpp), and must be
 // bit-identical with and without skipping of empty space. Each case states why single precision is
@@ -26,7 +26,7 @@ namespace triptych::volume_suite {
 // With this level, a factor uses the value that the stress case defines.
 using measure::own_level;
 
-// A case's volume, and the values of the level `own`.
+// The volume of a stress case, and the values that its factors have at the level `own`.
 struct StressScene {
   scene::Volume volume;
   scene::TransferFunction function;
@@ -55,7 +55,7 @@ struct StressCase {
 [[nodiscard]] const std::vector<StressCase>& stress_cases();
 
 using StressData = measure::StressChoice<StressCase>;
-// Returns the name of the data in a plan.
+// Returns the level of the factor `data` that selects this stress case in a plan.
 [[nodiscard]] std::string name_of(const StressData& data);
 
 // Returns nullopt if `data` does not name a stress case. Throws InputError if the case or variant

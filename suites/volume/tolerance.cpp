@@ -32,7 +32,7 @@ double farthest_entry(const scene::Box& box, const glm::dvec3& eye, const glm::d
 }
 
 // Returns the largest position error in voxels per axis (derived in tolerance.hpp). Lengths are
-// divided by the smallest spacing, because a length is at most this number of voxels along any
+// divided by the smallest spacing, which yields an upper bound on the number of voxels along any
 // axis.
 double position_error(const scene::VolumeScene& scene, double u) {
   const scene::VoxelGrid& grid = *scene.grid;

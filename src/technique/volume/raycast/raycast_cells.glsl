@@ -1,9 +1,10 @@
-// Raycasting for quadrature=cells (scene::Quadrature), in which the ray goes from cell to cell. A cell is the space
-// between eight voxel centres, in which the field along the ray is a cubic polynomial. The position on the ray where
-// it crosses a plane is computed from a cell's index and not accumulated. The contribution of a cell therefore does
-// not depend on the previous cells, and the image with skipping is bit-identical. This code exists only in single
-// precision. The structure of its loops follows from the compiler properties described in raycast.glsl. "Times" are
-// positions on the ray, in steps.
+// Raycasting for quadrature=cells (scene::Quadrature), in which the ray goes from cell to cell. A
+// cell is the space between eight voxel centres, in which the field along the ray is a cubic
+// polynomial. The position at which the ray crosses a plane is computed from the cell's index and
+// not accumulated. The contribution of a cell therefore does not depend on the previous cells, so
+// the image is bit-identical with and without skipping. This code exists only in single precision.
+// The structure of its loops follows from the compiler properties described in raycast.glsl.
+// "Times" are positions on the ray, in steps.
 #include "volume/raycast/field.glsl"
 
 // The data of a ray that is needed to walk from cell to cell. Cell i is between the voxels i and i+1. The first cell
