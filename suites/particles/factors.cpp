@@ -23,38 +23,45 @@ constexpr double any_field_of_view = 60;
 
 const std::vector<Factor>& particle_factors() {
   static const std::vector<Factor> factors{
-      measure::technique_factor("particles", "quad_instanced", "how the spheres are drawn"),
+      measure::technique_factor("particles", "quad_instanced",
+                                "the technique that draws the spheres"),
       text("data", "generate:uniform:10000",
            "a particle file (" + scene::particle_endings() +
-               ", plain or compressed; FILE@K: its K-th frame), generate:NAME:COUNT, or "
-               "stress:CASE:VARIANT (a stress scene)"),
+               ", plain or compressed; FILE@K selects frame K, counting from 0), "
+               "generate:NAME:COUNT, or stress:CASE:VARIANT (a stress scene)"),
       choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_picture,
-             "how a particle's colour is stored: four bytes, four floats, or an intensity that is "
-             "looked up in the transfer function"),
+             "how each particle's colour is stored: as four bytes (rgba8), as four floats "
+             "(rgba32), or as an intensity that is looked up in the transfer function"),
       text("transfer_function", "haze",
-           "colours for intensities: haze, surfaces, or a file with 256 RGBA entries"),
+           "the transfer function, which maps intensities to colours: the preset haze or surfaces, "
+           "or a file with 256 RGBA entries"),
       choice("transfer", {"vertex", "pixel"}, "vertex", Decides::how_it_is_made,
-             "the stage that looks up the transfer function"),
+             "the shader stage that looks up colours in the transfer function"),
       choice("ray", {"vertex", "pixel"}, "pixel", Decides::how_it_is_made,
-             "the stage that computes the ray"),
+             "the shader stage that computes the rays"),
       choice("conservative_depth", {"off", "on"}, "off", Decides::how_it_is_made,
-             "whether the shader declares that the surface lies behind its sprite"),
+             "whether the shader declares conservative depth (depth_less), because each surface "
+             "point lies behind its sprite; hidden fragments can then be rejected early"),
       choice("corners", {"4", "5", "6", "7", "8", "16", "32"}, "8", Decides::how_it_is_made,
-             "number of corners of polygon_tess"),
+             "the number of corners of each polygon that polygon_tess draws"),
       choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,
-             "which cells of particles are culled"),
+             "which particle cells are culled: none, those outside the view frustum, or also those "
+             "hidden behind other particles (occlusion)"),
       choice("structure", {"static", "refit", "rebuild"}, "static", Decides::how_it_is_made,
-             "what each frame does with the hierarchy that rays traverse: nothing (static), refit "
-             "it to moved spheres, or rebuild it"),
+             "how each frame updates the hierarchy that rays traverse: not at all (static), by "
+             "refitting it to the moved spheres, or by rebuilding it"),
       number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture,
-             "factor by which every radius is multiplied"),
-      text("camera", "orbit_y:1/8",
-           "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED or view:AZIMUTH/ELEVATION/DISTANCE "
-           "(degrees, and orbit radii: view:45/20/0.8); own: the stress case's camera"),
+             "the factor by which every radius is multiplied"),
+      text(
+          "camera", "orbit_y:1/8",
+          "PATH:i/n (such as orbit_y:1/8 or path_z:3/36), random:SEED, or "
+          "view:AZIMUTH/ELEVATION/DISTANCE (angles in degrees and distance in orbit radii, such as "
+          "view:45/20/0.8); own: the stress case's camera"),
       number("fov", 0.0005, 179, "60", Decides::the_picture,
-             "vertical field of view in degrees; own: the stress case's value",
+             "the vertical field of view in degrees; own: the stress case's field of view",
              {std::string(own_level)}),
-      text("viewport", "256", "N for NxN, or WxH, in pixels; own: the stress case's viewport"),
+      text("viewport", "256",
+           "the image size in pixels: N for NxN, or WxH; own: the stress case's viewport"),
   };
   return factors;
 }

@@ -108,8 +108,7 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
     plainer("transfer", "vertex", "stored colours need no transfer function");
     plainer("transfer_function", "haze", "stored colours need no transfer function");
   }
-  if (!technique.asks_corners)
-    plainer("corners", "8", "only polygon_tess uses the number of corners");
+  if (!technique.asks_corners) plainer("corners", "8", "only polygon_tess uses this factor");
   if (technique.method == technique::Method::rays) {
     plainer("conservative_depth", "off", "rays always skip spheres that are hidden");
     plainer("culling", "frustum", "rays always skip spheres that they cannot hit");
@@ -117,7 +116,8 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   }
   if (work.options.conservative_depth) {
     if (technique.method == technique::Method::tiles) {
-      plainer("conservative_depth", "off", "tiles always rejects spheres by their front depth");
+      plainer("conservative_depth", "off",
+              "the technique tiles always rejects spheres by the depth of their front");
     } else if (sprites_are_apart(work.scene)) {
       plainer("conservative_depth", "off", "no sprite lies behind another");
     }

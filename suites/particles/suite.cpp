@@ -133,7 +133,9 @@ std::string ParticleSuite::missing_data(const Configuration& configuration) cons
   if (stress_data(data) || scene::particles_present(data, folders_)) return {};
   return fmt::format(
       "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that contains particles/",
-      data, folders_.empty() ? "" : fmt::format(" here or in {}", folders_.front().string()));
+      data,
+      folders_.empty() ? ""
+                       : fmt::format(" in the current folder or in {}", folders_.front().string()));
 }
 
 void ParticleSuite::load(const Configuration& configuration) {

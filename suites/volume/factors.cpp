@@ -30,65 +30,76 @@ Factor silent(Factor factor) {
 
 const std::vector<Factor>& volume_factors() {
   static const std::vector<Factor> factors{
-      measure::technique_factor("volume", "raycast", "how the image is drawn"),
+      measure::technique_factor("volume", "raycast", "the technique that draws the image"),
       text("data", "generate:mandelbulb:96",
            "a volume file (" + scene::volume_endings() +
                ", plain or compressed; FILE:NXxNYxNZ:TYPE for voxels without a header), "
                "generate:NAME:SIZE, generate:NAME:NXxNYxNZ, "
                "analytic:PROBLEM:SIZE (a scene with an exact solution), or stress:CASE:VARIANT"),
-      choice("voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", Decides::how_it_is_made,
-             "how voxels are stored on the device; f16: half floats; auto: the device's fastest "
-             "exact path"),
+      choice(
+          "voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", Decides::how_it_is_made,
+          "how voxels are stored on the device: as 8- or 16-bit integers, floats, or half floats "
+          "(f16); auto: the fastest combination of voxel and sampler that is exact on the device"),
       choice(
           "sampler", {"auto", "hardware", "manual", "packed"}, "auto", Decides::how_it_is_made,
           "how voxels are interpolated: by the hardware sampler, by the kernel (manual), or by the "
-          "kernel from packed cells of eight voxels; auto: the device's fastest exact path"),
+          "kernel from packed cells of eight voxels; auto: the fastest combination of voxel and "
+          "sampler that is exact on the device"),
       silent(text("window", "full",
                   "the range of values that the transfer function spans: full, or LOW..HIGH in the "
                   "data's units or percentiles (p1..p99, 0..p99.5); values outside are clamped")),
-      silent(choice("mapping", {"linear", "log"}, "linear", Decides::the_picture,
-                    "how values are mapped to the window; log: by their logarithm, with values "
-                    "below the smallest positive one mapped to 0")),
+      silent(choice(
+          "mapping", {"linear", "log"}, "linear", Decides::the_picture,
+          "how values in the window are mapped to the transfer function: linearly, or by their "
+          "logarithm (log), with values below the smallest positive value mapped to 0")),
       silent(text("component", "0",
                   "the component to draw if the data have several values per voxel, such as "
                   "colours, vectors or time steps: a 0-based index, or magnitude for the "
                   "Euclidean norm of all components")),
       text("transfer_function", "haze",
-           "haze, surfaces, a file with 256 RGBA entries, or own: the analytic problem's or "
-           "stress case's transfer function (surfaces for all other data)"),
+           "the transfer function, which maps values to colours and opacities: the preset haze or "
+           "surfaces, a file with 256 RGBA entries, or own (the transfer function of the analytic "
+           "problem or stress case; surfaces for all other data)"),
       number("step", 1.0 / 64, 4096, "1", Decides::the_picture,
-             "distance between samples in units of the smallest voxel spacing; own, here and "
-             "below: the value of the stress case (the default for all other data)",
+             "the distance between samples in units of the smallest voxel spacing; own, here and "
+             "below: the stress case's value (the factor's default for all other data)",
              {std::string(own_level)}),
-      choice("quadrature", {"midpoint", "preintegrated", "cells", std::string(own_level)},
-             "midpoint", Decides::the_picture,
-             "rule for the ray integral; midpoint: one sample for each step; preintegrated: the "
-             "transfer function is integrated between the values at both ends of a step; cells: a "
-             "rule of fourth order, with rays cut at voxel planes, into ⌈1/step⌉ parts between "
-             "them, and at the kinks of the transfer function"),
+      choice(
+          "quadrature", {"midpoint", "preintegrated", "cells", std::string(own_level)}, "midpoint",
+          Decides::the_picture,
+          "the rule for the ray integral; midpoint: one sample for each step; preintegrated: the "
+          "transfer function is integrated between the values at both ends of a step; cells: a "
+          "fourth-order rule, for which rays are cut at voxel planes, into ⌈1/step⌉ parts between "
+          "voxel planes, and at the kinks of the transfer function"),
       choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_picture,
-             "gradient: a headlight, with gradients from central differences"),
+             "none, or gradient: shading by a headlight, with gradients computed by central "
+             "differences"),
       choice("skip", {"none", "bricks", "distance"},
              std::string(technique::name_of(technique::RaycastOptions{}.skip)),
-             Decides::how_it_is_made, "how empty space is skipped"),
+             Decides::how_it_is_made,
+             "how empty space is skipped: not at all, brick by brick, or by leaps over several "
+             "bricks (distance)"),
       number("ert", 0, 0.5, "0.001953125", Decides::how_it_is_made,
-             "early ray termination: the transmittance below which a ray ends; 0: never; the "
+             "early ray termination: the transmittance below which a ray ends, or 0 for never; the "
              "default is half an 8-bit step",
              {std::string(own_level)}),
       number("adapt", 0, 0.5, "0", Decides::how_it_is_made,
-             "allowed error due to merging the samples of a nearly homogeneous brick into one "
-             "sample; requires skip=bricks"),
+             "the error allowed for merging the samples of a nearly homogeneous brick into one "
+             "sample; a value above 0 requires skip=bricks"),
       choice("precision", {"fp32", "fp64"}, "fp32", Decides::how_it_is_made,
-             "precision of rays, interpolation and compositing; fp64 requires sampler=manual or "
-             "sampler=packed, and sampler=auto then selects one of them"),
-      number("budget", 0x1.0p-10, 1 << 20, std::string(no_budget), Decides::how_it_is_made,
-             "MiB of device memory for voxels: a larger volume is drawn in parts, front to back, "
-             "which are uploaded in every frame; none: as much as the device's limits allow",
-             {std::string(no_budget)}),
-      text("camera", "orbit_y:1/8",
-           "PATH:i/n (orbit_y:1/8, path_z:3/36, …), random:SEED, view:AZIMUTH/ELEVATION/DISTANCE "
-           "(degrees, and orbit radii: view:45/20/0.8), or own"),
-      text("viewport", "256", "N for NxN, or WxH, in pixels, or own"),
+             "the precision of rays, interpolation and compositing; fp64 requires sampler=manual "
+             "or sampler=packed, and sampler=auto then selects one of them"),
+      number(
+          "budget", 0x1.0p-10, 1 << 20, std::string(no_budget), Decides::how_it_is_made,
+          "the limit on device memory for voxels, in MiB; a larger volume is drawn in parts, front "
+          "to back, and every frame uploads the parts again; none: only the device's limits apply",
+          {std::string(no_budget)}),
+      text(
+          "camera", "orbit_y:1/8",
+          "PATH:i/n (such as orbit_y:1/8 or path_z:3/36), random:SEED, "
+          "view:AZIMUTH/ELEVATION/DISTANCE (angles in degrees and distance in orbit radii, such as "
+          "view:45/20/0.8), or own"),
+      text("viewport", "256", "the image size in pixels: N for NxN, WxH, or own"),
   };
   return factors;
 }

@@ -31,7 +31,7 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   }
   if (cells && work.scene.step_voxels > 1) {
     plain.levels["step"] = "1";
-    plain.why["step"] = "a step that is longer than a cell does not cut any cell";
+    plain.why["step"] = "a step longer than a cell does not subdivide any cell";
   }
   return plain;
 }

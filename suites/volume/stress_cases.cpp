@@ -12,51 +12,51 @@ std::vector<StressCase> cases_of_geometry() {
   return {
       {1,
        "inside",
-       "the eye is inside the volume, once exactly at the centre of a voxel",
+       "the eye is inside the volume, in one variant exactly at the centre of a voxel",
        "rays begin at the eye, because the point where they would enter the box is behind the eye, "
        "and its distance is replaced by 0",
        {"middle", "voxel"},
        stress_inside},
       {2,
        "boundary",
-       "the eye is on a face, on an edge, on a corner, or on a face looking away",
-       "rays that go inward enter at distance 0; if the camera looks away, all rays have length 0 "
-       "inside the box, and the image is the background",
+       "the eye is on a face, an edge or a corner of the volume, or on a face and looking away",
+       "rays that point inward enter at distance 0; if the camera looks away, all rays have length "
+       "0 inside the box, and the image is the background",
        {"face", "edge", "corner", "away"},
        stress_boundary},
       {3,
        "parallel",
        "ray directions have a component of ±0, and the rays begin in the plane of a face",
        "the product 0·∞ never occurs, because such a ray is inside the box for its whole length or "
-       "not at all; rounding decides which, and the bound covers both",
+       "not at all; rounding decides which, and the error bound covers both cases",
        {"lower", "upper", "negative_zero"},
        stress_parallel},
       {4,
        "within_face",
        "rays lie in a face, and one ray lies in an edge",
-       "the image is finite, and such a ray may be inside the box for any part of its length",
+       "every pixel is finite, and any part of such a ray may count as inside the box",
        {"face", "edge"},
        stress_within_face},
       {5,
        "chord",
-       "rays cut off an edge or a corner, so that their chords tend to 0",
-       "opacity tends to 0 with the chord, because 1 − (1 − α)^s is computed without cancellation; "
-       "a ray of length 0 takes no sample",
+       "rays clip an edge or a corner of the box, so their chord lengths tend to 0",
+       "opacity tends to 0 with the chord length, because 1 − (1 − α)^s is computed without "
+       "cancellation; a ray of length 0 takes no sample",
        {"edge", "corner"},
        stress_chord},
       {6,
        "octant",
        "volume and camera are mirrored into all eight octants",
-       "each image is a mirror image of the first one within the sum of both bounds, but not "
+       "each image is a mirror image of the first one within the sum of both error bounds, but not "
        "bit-identical, because N − x and x are rounded differently",
        {"ppp", "mpp", "pmp", "mmp", "ppm", "mpm", "pmm", "mmm"},
        stress_octant},
       {7,
        "far",
-       "the eye is 10³ … 10⁷ voxels away, with a focal length to match; this also covers offsets "
-       "in world space, which would only move the eye because volumes begin at 0",
+       "the eye is 10³ to 10⁷ voxels away, with a matching focal length; this also covers "
+       "world-space offsets, which would only move the eye because volumes begin at the origin",
        "the image is the same as from nearby, because rays begin on a plane in front of the box "
-       "whose position is computed in double precision, so that the distance causes no round-off",
+       "whose position is computed in double precision, so the distance causes no round-off",
        {"1e3", "1e4", "1e5", "1e6", "1e7"},
        stress_far},
   };
@@ -66,15 +66,15 @@ std::vector<StressCase> cases_of_size() {
   return {
       {8,
        "scale",
-       "world units are scaled by 2^±20, and extinction by the inverse",
+       "world units are scaled by 2^±20, and extinction by the inverse factor",
        "the image is bit-identical to the image with scale 1, because multiplying by a power of "
-       "two causes no rounding, and no threshold is in world units",
+       "two causes no rounding, and no threshold is given in world units",
        {"one", "up", "down"},
        stress_scale},
       {9,
        "spacing",
        "voxels have aspect ratios of 1:1:8 and 1:1:1000",
-       "the image is within a bound that measures lengths in units of the smallest spacing, "
+       "the image is within an error bound that measures lengths in units of the smallest spacing, "
        "because the rounding error of a direction moves a sample by a length in this unit",
        {"8", "1000"},
        stress_spacing},
@@ -93,15 +93,16 @@ std::vector<StressCase> cases_of_size() {
        stress_tiny},
       {12,
        "prime",
-       "13×31×17 voxels: no size is a multiple of a brick size, a work-group size or an alignment",
+       "the volume has 13×31×17 voxels: no size is a multiple of a brick size, a work-group size "
+       "or an alignment",
        "rows are read from the correct addresses, and the last bricks contain the remaining voxels",
        {},
        stress_prime},
       {13,
        "oversize",
-       "20000 voxels along x, more than any texture may have",
-       "samplers that read voxels from a buffer draw the volume; all other samplers reject it and "
-       "report both sizes",
+       "the volume has 20000 voxels along x, more than any texture may have",
+       "samplers that read voxels from a buffer draw the volume; all other samplers reject it with "
+       "a message that states both sizes",
        {},
        stress_oversize},
       {14,
@@ -118,13 +119,14 @@ std::vector<StressCase> cases_of_voxels() {
       {15,
        "format",
        "the same field is stored in 8, 16 and 32 bits",
-       "the images agree within the sum of both bounds, because 255 and 65535 are both mapped to "
-       "exactly 1",
+       "the images agree within the sum of both error bounds, because 255 and 65535 are both "
+       "mapped to exactly 1",
        {"f32", "u8", "u16"},
        stress_format},
       {16,
        "nan",
-       "some voxels are NaN: one, a block, every second one, or one in a shaded scene",
+       "some voxels are NaN: one voxel, a block, every second voxel, or one voxel in a shaded "
+       "scene",
        "the image is bit-identical to the image with 0 instead of NaN (where the transfer function "
        "is transparent), because NaN is replaced when voxels are prepared and never reaches a "
        "device",
@@ -140,9 +142,9 @@ std::vector<StressCase> cases_of_voxels() {
       {18,
        "denormal",
        "voxels, opacities, colours or transmittances are denormal",
-       "denormal data become 0 before they reach a device; denormals that a ray computes may be "
-       "kept or become 0, which changes no channel by more than 2⁻¹²⁶; the frame takes at most 1.2 "
-       "times as long (tests/contract/stress_test.cpp)",
+       "denormal data become 0 before they reach a device; denormals that are computed along a ray "
+       "may be kept or flushed to 0, which changes no channel by more than 2⁻¹²⁶; the frame takes "
+       "at most 1.2 times as long (tests/contract/stress_test.cpp)",
        {"voxels", "opacity", "colour", "transmittance"},
        stress_denormal},
       {19,
@@ -187,19 +189,19 @@ std::vector<StressCase> cases_of_transfer() {
       {24,
        "stride",
        "the step is twice or a thousand times the volume's diagonal",
-       "there is one partial sample for the whole chord, with the value at the clamped edge",
+       "each ray takes one partial sample for its whole chord, with the value at the clamped edge",
        {"twice", "thousand"},
        stress_stride},
       {25,
        "spike",
-       "only one entry of 256 is visible, and a step can miss it",
-       "device and reference hit or miss it with the same samples; where rounding decides, the "
-       "bound covers both results; with pre-integration no step misses it",
+       "only one of 256 transfer-function entries is visible, and a step can miss it",
+       "the same samples hit or miss the entry on the device and in the reference; where rounding "
+       "decides, the error bound covers both results; with pre-integration, no step misses it",
        {"low", "middle", "preintegrated"},
        stress_spike},
       {26,
        "end_spike",
-       "only the first or the last entry is visible",
+       "only the first or the last transfer-function entry is visible",
        "values up to half an entry beyond the centre of this entry have its colour, and skipping "
        "must not treat the end of the range as empty",
        {"first", "last"},
@@ -207,14 +209,15 @@ std::vector<StressCase> cases_of_transfer() {
       {27,
        "slope",
        "opacity is linear along rays, with slopes down to ±1e-7 and 0",
-       "pre-integrated steps are computed without cancellation while the slope vanishes",
+       "pre-integrated steps are computed without cancellation as the slope vanishes",
        {"0.03", "1e-4", "1e-7", "0", "-1e-7", "-0.03"},
        stress_slope},
       {28,
        "edit",
        "transfer functions are random, with runs of visible entries "
        "(tests/contract/stress_test.cpp tests 100 of them)",
-       "the image with skipping is bit-identical for every transfer function",
+       "for every transfer function, the image with skipping is bit-identical to the image without "
+       "it",
        {"1", "2", "3", "4", "5", "6", "7", "8"},
        stress_edit},
       {29,
@@ -239,8 +242,8 @@ std::vector<StressCase> cases_of_transfer() {
       {32,
        "lit",
        "one visible voxel is on a brick's face, edge or corner, or in the first or last layer",
-       "the voxel is visible, because the border of one voxel around each brick makes every sample "
-       "near it count",
+       "the voxel is visible, because the value range of each brick includes a border of one "
+       "voxel, so no sample near the voxel is skipped",
        {"face", "edge", "corner", "first", "last"},
        stress_lit},
   };
@@ -251,14 +254,15 @@ std::vector<StressCase> cases_of_frame() {
       {51,
        "shape",
        "the image has 1×1, 1×13, 17×1 or 17×13 pixels",
-       "the smaller images equal parts of the largest one within the sum of both bounds, because "
-       "incomplete work groups draw only their own pixels",
+       "each smaller image equals a part of the largest one within the sum of both error bounds, "
+       "because incomplete work groups draw only their own pixels",
        {"17x13", "1x1", "1x13", "17x1"},
        stress_shape},
       {52,
        "widest",
        "the image is 16384 pixels wide, or one pixel wider",
-       "both images are drawn, but a device may reject the wider one if it reports both sizes",
+       "both images are drawn, but a device may reject the wider one with a message that states "
+       "both sizes",
        {"16384", "16385"},
        stress_widest},
       {53,
@@ -277,9 +281,9 @@ std::vector<StressCase> cases_of_frame() {
        stress_asymmetric},
       {56,
        "halves",
-       "integers reach 65504 (the largest half float) or 65535 (beyond it), or floats would become "
-       "subnormal half floats",
-       "in format f16, integers up to 65504 are exact, and all other values are scaled to the "
+       "integer voxels reach 65504 (the largest half float) or 65535 (beyond it), or float voxels "
+       "would become subnormal half floats",
+       "with voxel=f16, integers up to 65504 are exact, and all other values are scaled to the "
        "range of half floats, so that none becomes subnormal or infinite",
        {"largest", "beyond", "subnormal"},
        stress_halves},

@@ -29,7 +29,7 @@ StressScene stress_shape(std::string_view variant) {
   scene.camera.fov_y_deg = fov_of_rows(scene.height, rows);
   if (variant != "17x13") {
     scene.expectations = {
-        {"the matching part of the image with 17x13 pixels, within the sum of both bounds",
+        {"the matching part of the image with 17x13 pixels, within the sum of both error bounds",
          record::SamePicture{.changed = {{"data", "stress:shape:17x13"}},
                              .at = {(columns - scene.width) / 2, (rows - scene.height) / 2},
                              .to_the_bit = false}}};

@@ -98,10 +98,11 @@ StressScene stress_octant(std::string_view variant) {
   scene.camera = along(glm::dvec3(edge / 2.0) + sign * plain.eye, sign * plain.forward,
                        sign * plain.up, plain.fov_y_deg);
   if (variant != "ppp") {
-    scene.expectations = {{"the mirror image of the first octant, within the sum of both bounds",
-                           record::SamePicture{.changed = {{"data", "stress:octant:ppp"}},
-                                               .mirrored_x = sign.x * sign.y * sign.z < 0,
-                                               .to_the_bit = false}}};
+    scene.expectations = {
+        {"the mirror image of the first octant's image, within the sum of both error bounds",
+         record::SamePicture{.changed = {{"data", "stress:octant:ppp"}},
+                             .mirrored_x = sign.x * sign.y * sign.z < 0,
+                             .to_the_bit = false}}};
   }
   return scene;
 }

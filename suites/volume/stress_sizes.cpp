@@ -19,8 +19,8 @@ StressScene stress_scale(std::string_view variant) {
   scene.camera.eye *= scale;
   scene.expectations = {same_bits_as(
       "stress:scale:one",
-      "an image that is bit-identical to that with scale 1, because multiplying by a power of two "
-      "causes no rounding")};
+      "an image that is bit-identical to the image with scale 1, because multiplying by a power of "
+      "two causes no rounding")};
   return scene;
 }
 

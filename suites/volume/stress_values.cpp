@@ -79,7 +79,7 @@ StressScene stress_nan(std::string_view variant) {
   if (missing) {
     scene.expectations = {
         same_bits_as("stress:nan:zero_" + std::string(kind),
-                     "an image that is bit-identical to that with 0 instead of NaN")};
+                     "an image that is bit-identical to the image with 0 instead of NaN")};
   }
   return scene;
 }
@@ -92,7 +92,7 @@ StressScene stress_infinite(std::string_view variant) {
   StressScene scene = with_block(plus ? infinite : -infinite, 3);
   scene.expectations = {same_bits_as(
       plus ? "stress:infinite:upper" : "stress:infinite:lower",
-      "an image that is bit-identical to that with this end of the range instead of ∞")};
+      "an image that is bit-identical to the image with this end of the range instead of ∞")};
   return scene;
 }
 

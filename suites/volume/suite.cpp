@@ -113,7 +113,9 @@ std::string VolumeSuite::missing_data(const Configuration& configuration) const 
   if (analytic_data(data) || stress_data(data) || scene::is_present(data, folders_)) return {};
   return fmt::format(
       "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that contains volumes/",
-      data, folders_.empty() ? "" : fmt::format(" here or in {}", folders_.front().string()));
+      data,
+      folders_.empty() ? ""
+                       : fmt::format(" in the current folder or in {}", folders_.front().string()));
 }
 
 // Resolves the levels `own` of a configuration whose data have been loaded.
@@ -324,7 +326,7 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
   }
   // With merged samples, the images are close but not bit-identical.
   if (levels_of(configuration, stress).adapt() > 0) return result;
-  result.push_back({"an image that is bit-identical to that without skipping",
+  result.push_back({"an image that is bit-identical to the image without skipping",
                     record::SamePicture{.changed = {{"skip", "none"}}}});
   return result;
 }
