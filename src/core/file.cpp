@@ -73,8 +73,8 @@ Descriptor open_to_read(const std::filesystem::path& file, struct stat& facts) {
   if (in.get() < 0 || ::fstat(in.get(), &facts) != 0) fail("cannot read", file, errno);
   if (S_ISDIR(facts.st_mode)) fail("cannot read", file, EISDIR);
   if (!S_ISREG(facts.st_mode)) {
-    throw IoError(
-        fmt::format("{}: cannot be read: it is a pipe or a device, not a file", file.string()));
+    throw IoError(fmt::format(
+        "{}: cannot be read because it is a pipe or a device, not a regular file", file.string()));
   }
   return in;
 }

@@ -109,8 +109,8 @@ void require_consistent(const Image& image) {
                          (image.ids.empty() || image.ids.size() == n);
   if (!plausible) {
     throw InputError(fmt::format(
-        "cannot write an EXR image: {}x{} pixels do not match {} colour values, {} depths and {} "
-        "ids",
+        "cannot write an EXR image of {}x{} pixels: the array sizes do not match ({} colour "
+        "values, {} depths, {} ids)",
         image.width, image.height, image.rgba.size(), image.depth.size(), image.ids.size()));
   }
 }
@@ -118,18 +118,18 @@ void require_consistent(const Image& image) {
 void require_channels(const Imf::ChannelList& channels) {
   for (const char* name : colour_channels) {
     if (channels.findChannel(name) == nullptr) {
-      throw std::runtime_error(
-          fmt::format("the channel {} is missing; expected R, G, B and A", name));
+      throw std::runtime_error(fmt::format("channel {} is missing; expected R, G, B and A", name));
     }
   }
   for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
     if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1) {
-      throw std::runtime_error(fmt::format("the channel {} is subsampled", channel.name()));
+      throw std::runtime_error(
+          fmt::format("channel {} is subsampled, which is not supported", channel.name()));
     }
   }
   const Imf::Channel* ids = channels.findChannel(id_channel);
   if (ids != nullptr && ids->type != Imf::UINT) {
-    throw std::runtime_error("the channel id does not have the type uint");
+    throw std::runtime_error("channel id must have the type uint");
   }
 }
 
@@ -146,8 +146,8 @@ Image allocate(const Imf::Header& header, std::size_t file_bytes) {
       static_cast<std::size_t>(width * height) / most_pixels_per_byte <= file_bytes;
   if (!possible) {
     throw std::runtime_error(
-        fmt::format("the header states {}x{} pixels, which a file of {} bytes cannot contain",
-                    width, height, file_bytes));
+        fmt::format("invalid image size in the header: {}x{} pixels in a file of {} bytes", width,
+                    height, file_bytes));
   }
   Image image(static_cast<int>(width), static_cast<int>(height));
   if (header.channels().findChannel(depth_channel) != nullptr) {
@@ -182,8 +182,9 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
     place += sizeof(size);
     if (size < 0 || static_cast<std::size_t>(size) > text.size() - place) {
       throw std::runtime_error(
-          fmt::format("an attribute of {} bytes at byte {} exceeds the file size of {} bytes", size,
-                      place, text.size()));
+          fmt::format("an attribute of {} bytes at byte {} extends beyond the end of the file ({} "
+                      "bytes)",
+                      size, place, text.size()));
     }
     const std::size_t end = place + static_cast<std::size_t>(size);
     while (channels && place < text.size() && !take_text().empty()) {
@@ -191,8 +192,8 @@ void require_attributes_inside(std::span<const std::byte> bytes) {
     }
     if (channels && place != end) {
       throw std::runtime_error(fmt::format(
-          "the channel list ends at byte {}, but the header states that it ends at byte {}", place,
-          end));
+          "the channel list ends at byte {}; according to the header, it should end at byte {}",
+          place, end));
     }
     place = end;
   }
@@ -213,7 +214,7 @@ Image decode(std::span<const std::byte> bytes) {
   require_attributes_inside(bytes);
   MemoryIn stream(bytes);
   Imf::InputFile file(stream, 0);
-  if (!file.isComplete()) throw std::runtime_error("the file was not written completely");
+  if (!file.isComplete()) throw std::runtime_error("the file is incomplete");
   require_channels(file.header().channels());
   Image image = allocate(file.header(), bytes.size());
   const Imath::Box2i window = file.header().dataWindow();
@@ -230,7 +231,7 @@ Image decode(std::span<const std::byte> bytes, const FilePlace& place) {
   } catch (const std::exception& error) {
     std::string reason = error.what();
     std::replace(reason.begin(), reason.end(), '\n', ' ');
-    throw InputError(place, fmt::format("not a usable EXR image: {}", reason));
+    throw InputError(place, fmt::format("cannot be read as an EXR image: {}", reason));
   }
 }
 

@@ -45,7 +45,8 @@ std::vector<std::byte> encode_png(const RgbPicture& picture) {
       static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
   if (picture.width < 1 || picture.height < 1 || picture.rgb.size() != 3 * pixels) {
     throw InputError(
-        fmt::format("cannot write a PNG image: {}x{} pixels do not match {} RGB values",
+        fmt::format("cannot write a PNG image of {}x{} pixels: the number of RGB values does not "
+                    "match ({})",
                     picture.width, picture.height, picture.rgb.size()));
   }
   png_image png{};
@@ -66,7 +67,8 @@ std::vector<std::byte> encode_png(const RgbPicture& picture) {
 std::vector<std::byte> encode_png(const Image& image) {
   if (image.width < 1 || image.height < 1 || image.rgba.size() != 4 * image.pixel_count()) {
     throw InputError(
-        fmt::format("cannot write a PNG image: {}x{} pixels do not match {} RGBA values",
+        fmt::format("cannot write a PNG image of {}x{} pixels: the number of RGBA values does not "
+                    "match ({})",
                     image.width, image.height, image.rgba.size()));
   }
   return encode_png(to_srgb(image));

@@ -31,8 +31,8 @@ void require_writable(const fs::path& folder) {
   fs::create_directories(where, error);
   if (!error && ::access(where.c_str(), W_OK) != 0) error = {errno, std::generic_category()};
   if (error) {
-    throw IoError(fmt::format("cannot write into folder {}: {}; choose another one", where.string(),
-                              error.message()));
+    throw IoError(fmt::format("cannot write to folder {}: {}; choose another folder",
+                              where.string(), error.message()));
   }
 }
 

@@ -67,8 +67,8 @@ int open_root(const fs::path& root) {
   const struct stat status = status_of(fd.get(), root);
   if ((status.st_mode & others_write) != 0 && (status.st_mode & S_ISVTX) == 0) {
     refuse(root,
-           "other users can write to this folder and rename the files in it, because it has no "
-           "sticky bit");
+           "other users can write to this folder and rename files in it, because its sticky bit "
+           "is not set");
   }
   return fd.release();
 }
@@ -80,7 +80,7 @@ int open_within(int parent, const std::string& name, const fs::path& folder) {
   FolderDescriptor fd(
       ::openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   if (fd.get() < 0) {
-    if (errno == ELOOP || errno == ENOTDIR) refuse(folder, "is a symbolic link, or is not a folder");
+    if (errno == ELOOP || errno == ENOTDIR) refuse(folder, "is a symbolic link or not a folder");
     refuse(folder, errno);
   }
   const struct stat status = status_of(fd.get(), folder);
@@ -118,7 +118,7 @@ PrivateFolder private_temporary_folder(const std::string& name) {
   std::error_code error;
   const fs::path temporary = fs::temp_directory_path(error);
   if (error)
-    throw IoError(fmt::format("there is no folder for temporary files: {}", error.message()));
+    throw IoError(fmt::format("cannot find the folder for temporary files: {}", error.message()));
   const std::array names{name_of_this_user(), name};
   return {temporary, names};
 }

@@ -175,7 +175,7 @@ void insert_code(const SQLite::Database& database, std::int64_t record, const Co
 
 void require_record_seal(const Row& row, const Record& record) {
   require_seal(row.seal, seal_of(record),
-               fmt::format("the record of {} on {}", record.configuration, record.device));
+               fmt::format("the record for {} on {}", record.configuration, record.device));
 }
 
 // Reads the rows that belong to a record from a table other than `record`, with a statement that is

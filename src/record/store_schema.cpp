@@ -282,9 +282,8 @@ void require_our_objects(const SQLite::Database& database, const std::filesystem
   for (const auto& [object, statement] : found) {
     if (object.first == "table" || our_objects().contains(object)) continue;
     throw core::InputError({.file = file.string()},
-                           fmt::format("contains the {} {}, which Triptych did not create and "
-                                       "which could change data when they are read or added; "
-                                       "remove it",
+                           fmt::format("contains the {} {}, which Triptych did not create; it "
+                                       "could alter data on reading or inserting, so remove it",
                                        object.first, object.second));
   }
 }
@@ -309,8 +308,8 @@ void require_our_schema(const SQLite::Database& database, const std::filesystem:
   if (found == Store::schema_version) return require_our_objects(database, file);
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("the store has schema version {}, but this program reads version {}; {}, or "
-                  "name another file with --store",
+      fmt::format("the store has schema version {}, but this version of Triptych requires schema "
+                  "version {}; {}, or choose another file with --store",
                   found, Store::schema_version,
                   found > Store::schema_version
                       ? "use the newer version of Triptych that wrote it"

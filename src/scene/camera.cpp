@@ -209,8 +209,9 @@ Pose pose_of(std::string_view spec, const Stage& stage) {
     const auto view = parse_free_view(rest);
     if (!view) {
       reject(spec,
-             fmt::format("view:AZIMUTH/ELEVATION/DISTANCE with an azimuth within 360 degrees, an "
-                         "elevation within {} and a distance from {} to {}",
+             fmt::format("view:AZIMUTH/ELEVATION/DISTANCE with an azimuth of at most ±360 "
+                         "degrees, an elevation of at most ±{} degrees and a distance from {} to "
+                         "{}",
                          FreeView::steepest_deg, FreeView::nearest, FreeView::farthest));
     }
     return free_pose(stage, *view);
@@ -250,8 +251,8 @@ void require_usable(const Box& box, double fov_y_deg) {
     const double extent = box.hi[axis] - box.lo[axis];
     if (!(extent > 0 && std::isfinite(extent))) {
       throw core::InputError(
-          fmt::format("the extent of the data is {} along the {} axis; a camera requires a "
-                      "positive, finite extent",
+          fmt::format("the data have an extent of {} along the {} axis; placing a camera requires "
+                      "a positive, finite extent",
                       extent, "xyz"[axis]));
     }
   }

@@ -104,7 +104,9 @@ const Entry* endianness_in(const Description& description) {
   const Entry* right = description.find("endianness");
   const Entry* wrong = description.find("endianess");
   if (right != nullptr && wrong != nullptr) {
-    throw core::InputError(wrong->place, "the byte order is stated twice");
+    throw core::InputError(wrong->place,
+                           "the byte order is specified twice, as Endianness and "
+                           "as Endianess");
   }
   return right != nullptr ? right : wrong;
 }

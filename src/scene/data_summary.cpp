@@ -64,7 +64,7 @@ void add_notes(std::vector<std::string>& lines, const ReadFacts& facts) {
 
 std::string unit_text(const ReadFacts& facts) {
   if (facts.format.empty()) return {};  // generated data have no unit
-  return facts.unit.empty() ? " (the file states no unit)" : " " + facts.unit;
+  return facts.unit.empty() ? " (the file does not specify a unit)" : " " + facts.unit;
 }
 
 // A histogram with bins of equal width. It is exact for integers whose range is at most 65535.
@@ -130,7 +130,7 @@ void append_picture(std::vector<std::string>& lines, const Volume& volume) {
       }
     }
   });
-  lines.emplace_back("preview of the largest value along z (x points right, y points up):");
+  lines.emplace_back("preview of the maximum value along z (x points right, y points up):");
   picture.append_to(lines);
 }
 
@@ -142,7 +142,9 @@ void append_picture(std::vector<std::string>& lines, const ParticleSet& set, con
     };
     picture.at(share(sphere[0], box.lo.x, box.hi.x), share(sphere[1], box.lo.y, box.hi.y)) += 1;
   }
-  lines.emplace_back("preview of the number of centres along z (x points right, y points up):");
+  lines.emplace_back(
+      "preview of the number of particle centres along z (x points right, y "
+      "points up):");
   picture.append_to(lines);
 }
 
@@ -165,13 +167,11 @@ std::vector<std::string> summary_of(const Volume& volume) {
   lines.push_back(fmt::format("extent: {:.6g} x {:.6g} x {:.6g}{}", nx * sx, ny * sy, nz * sz, unit));
   lines.push_back(fmt::format("orientation: {}",
                               facts.orientation.empty()
-                                  ? "not stated"
+                                  ? "not specified"
                                   : facts.orientation + " (directions of the axes x, y and z)"));
-  lines.push_back(fmt::format("range: {:.9g} to {:.9g}{}", volume.range_lo, volume.range_hi,
-                              histogram.other == 0
-                                  ? ""
-                                  : fmt::format(", plus {} values that are not finite",
-                                                histogram.other)));
+  lines.push_back(fmt::format(
+      "range: {:.9g} to {:.9g}{}", volume.range_lo, volume.range_hi,
+      histogram.other == 0 ? "" : fmt::format(", plus {} non-finite values", histogram.other)));
   std::string percentiles = "percentiles:";
   for (const double percent : {1.0, 25.0, 50.0, 75.0, 99.0}) {
     percentiles +=
@@ -192,11 +192,9 @@ std::vector<std::string> summary_of(const ParticleSet& set) {
   lines.push_back(fmt::format("format: {}", facts.format.empty() ? "generated" : facts.format));
   lines.push_back(fmt::format(
       "particles: {}{}", set.count(),
-      set.dropped == 0
-          ? ""
-          : fmt::format(
-                ", plus {} that were dropped because their position or radius cannot be drawn",
-                set.dropped)));
+      set.dropped == 0 ? ""
+                       : fmt::format(", plus {} dropped because of an invalid position or radius",
+                                     set.dropped)));
   if (!facts.kinds.empty()) {
     std::string kinds = facts.elements ? "elements:" : "types:";
     for (const auto& [name, count] : facts.kinds) kinds += fmt::format(" {} {}", name, count);

@@ -278,7 +278,7 @@ void name_elements(Atoms& atoms, bool aligned) {
   atoms.take_names(std::move(named));
   if (guessed > 0) {
     atoms.notes.push_back(
-        fmt::format("the file states no element for {} atom{} in unknown residues; the "
+        fmt::format("the file does not specify the element of {} atom{} in unknown residues; the "
                     "elements were guessed from the atom names: {}",
                     guessed, guessed == 1 ? "" : "s", listed(guesses)));
   }

@@ -203,7 +203,9 @@ struct Generator {
 };
 
 constexpr std::array<Generator, 8> generators{{
-    {{"uniform_box", "the same value everywhere: no empty space, closed-form solution"},
+    {{"uniform_box",
+      "a constant value without empty space, with a closed-form solution for every "
+      "ray"},
      uniform_box},
     {{"gradient_box", "a ramp from corner to corner"}, gradient_box},
     {{"frequency_box",
@@ -222,8 +224,8 @@ constexpr std::array<Generator, 8> generators{{
 const Generator& generator_of(std::string_view name, std::array<int, 3> size) {
   for (const int n : size) {
     if (n < 1 || n > largest_side) {
-      throw core::InputError(
-          fmt::format("generate:{}: size {} is outside 1..{}", name, n, largest_side));
+      throw core::InputError(fmt::format("generate:{}: size {} is out of range; expected 1 to {}",
+                                         name, n, largest_side));
     }
   }
   const auto found = std::find_if(generators.begin(), generators.end(),

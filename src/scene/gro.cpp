@@ -23,13 +23,14 @@ std::size_t place_width(std::string_view line, const LineReader& reader) {
   const std::size_t second = first == std::string_view::npos ? first : line.find('.', first + 1);
   const std::size_t third = second == std::string_view::npos ? second : line.find('.', second + 1);
   if (third == std::string_view::npos) {
-    reader.reject("expected x, y and z with decimal points from column 21 on");
+    reader.reject("expected x, y and z with decimal points, starting in column 21");
   }
   if (first != first_point || third - second != second - first || second - first < 6) {
-    reader.reject(fmt::format("the decimal points of x, y and z are in columns {}, {} and {}; "
-                              "expected the first point in column 25 and equal distances between "
-                              "the points; a number may be too wide for its columns",
-                              first + 1, second + 1, third + 1));
+    reader.reject(
+        fmt::format("the decimal points of x, y and z are in columns {}, {} and {}; "
+                    "expected the first point in column 25 and equally spaced points; a "
+                    "coordinate may be too wide for its columns",
+                    first + 1, second + 1, third + 1));
   }
   return second - first;
 }
@@ -47,10 +48,12 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
     const std::string_view field = line.substr(places_begin + axis * width, width);
     place.at(axis) = reader.number(field, axes.at(axis));
     if (field.find('.') == 4 || !std::isfinite(place.at(axis))) continue;
-    reader.reject(fmt::format("{}: '{}' is not aligned in columns {} to {} as in the first atom's line; "
-                              "a number that is too wide for its columns cannot be read",
-                              axes.at(axis), quotable(trimmed(field)),
-                              places_begin + axis * width + 1, places_begin + (axis + 1) * width));
+    reader.reject(
+        fmt::format("{}: '{}' is not aligned to columns {} to {}, which contain this "
+                    "coordinate in the first atom's line; numbers wider than their "
+                    "columns are not supported",
+                    axes.at(axis), quotable(trimmed(field)), places_begin + axis * width + 1,
+                    places_begin + (axis + 1) * width));
   }
   atoms.add(place, unnamed_kind(atoms, trimmed(line.substr(10, 5)), line.substr(5, 5)));
 }
@@ -77,7 +80,7 @@ ParticleSet read_gro(LineReader& reader, std::uint64_t frame, ColourKind colour)
     static_cast<void>(reader.require("a title"));
     const std::uint64_t count =
         reader.count(reader.require("the number of atoms"), "the number of atoms");
-    const std::string atoms_wanted = fmt::format("the last of {} atoms", count);
+    const std::string atoms_wanted = fmt::format("{} atoms", count);
     if (current < frame) {
       reader.skip(count, atoms_wanted);
       check_box(reader.require("the box"), reader);

@@ -50,7 +50,7 @@ struct Inflater::Stream {
   void drop_padding() {
     bool padded = false;
     for (; has_input() && *zlib.next_in == 0; ++zlib.next_in, --zlib.avail_in) padded = true;
-    if (padded && has_input()) reject("the zero padding is followed by other data");
+    if (padded && has_input()) reject("unexpected data after the zero padding");
   }
 
   void step() {

@@ -53,7 +53,7 @@ const Style* named_style(std::string_view comment, const LineReader& reader) {
   const auto found = std::ranges::find(styles, name, &Style::name);
   if (found == styles.end()) {
     reader.reject(fmt::format(
-        "expected an Atoms section of the style atomic, charge, molecular, bond, angle, full, "
+        "expected an Atoms section with the style atomic, charge, molecular, bond, angle, full, "
         "sphere, dipole, electron, ellipsoid, body, peri, line or tri; found '{}'",
         quotable(name)));
   }
@@ -84,8 +84,8 @@ const Style& guessed_style(const Words& words, const LineReader& reader) {
         "atomic'");
   }
   reader.reject(
-      fmt::format("the style of atoms with {} columns is ambiguous; expected a comment that names the style, "
-                  "such as 'Atoms # charge' or 'Atoms # molecular'",
+      fmt::format("the atom style is ambiguous for {} columns; expected a comment that names the "
+                  "style, such as 'Atoms # charge' or 'Atoms # molecular'",
                   words.size()));
 }
 
@@ -109,7 +109,8 @@ std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& co
 void add_data_atom(Atoms& atoms, const Words& words, const Style& style, const LineReader& reader) {
   if (!style.fits(words.size())) {
     reader.reject(
-        fmt::format("expected {} columns, or {} with image flags, for the style {}; found {}",
+        fmt::format("expected {} columns, or {} with image flags, for the atom style {}; found {} "
+                    "columns",
                     style.flags(), style.flags() + 3, style.name, words.size()));
   }
   atoms.order.push_back(reader.integer(words[0], "id"));
@@ -141,7 +142,7 @@ ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind
   if (!trimmed(reader.require("a blank line")).empty()) {
     reader.reject("expected a blank line after 'Atoms'");
   }
-  const std::string atoms_wanted = fmt::format("the last of {} atoms", *count);
+  const std::string atoms_wanted = fmt::format("{} atoms", *count);
   const int first_line = reader.line() + 1;
   Atoms atoms;
   atoms.elements = false;

@@ -175,7 +175,7 @@ ParticleSet read_lammps_dump(LineReader& reader, std::uint64_t frame, ColourKind
     Frame header;
     const std::string_view names = read_headers(reader, header);
     if (!header.count) reader.reject("expected ITEM: NUMBER OF ATOMS before the atoms");
-    const std::string atoms_wanted = fmt::format("the last of {} atoms", *header.count);
+    const std::string atoms_wanted = fmt::format("{} atoms", *header.count);
     if (current < frame) {
       reader.skip(*header.count, atoms_wanted);
       continue;

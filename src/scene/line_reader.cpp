@@ -23,7 +23,7 @@ std::optional<std::string_view> LineReader::next() {
 
 std::string_view LineReader::require(std::string_view what) {
   const auto line = next();
-  if (!line) reject(fmt::format("the file ends here, where {} was expected", what));
+  if (!line) reject(fmt::format("unexpected end of file; expected {}", what));
   return *line;
 }
 
@@ -56,7 +56,7 @@ std::uint64_t LineReader::count(std::string_view word, std::string_view what) co
   const auto value = parse_number<std::uint64_t>(trimmed(word));
   if (!value) reject(fmt::format("expected {}, found '{}'", what, quotable(trimmed(word))));
   if (*value > most_particles) {
-    reject(fmt::format("{} particles are too many; the limit is {}", *value, most_particles));
+    reject(fmt::format("too many particles: {} (the limit is {})", *value, most_particles));
   }
   return *value;
 }

@@ -159,7 +159,8 @@ void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layo
         whole_number({std::string(split_words(sizes.value)[3]), sizes.place});
     if (further > 1 && layout.components > 1) {
       throw core::InputError(sizes.place,
-                             "the volume has both channels and a fourth dimension; expected only one of them");
+                             "the volume has both multiple channels and a fourth dimension; only "
+                             "one of them is supported");
     }
     if (further > 1) layout.block = volume.voxel_count();
     layout.components *= further;
@@ -223,7 +224,8 @@ RawVoxels locate_voxels(const MetaHeader& header, const std::filesystem::path& f
     source.start = header.data_start();
   } else if (name.find('%') != std::string::npos && split_words(data.value).size() > 1) {
     throw core::InputError(data.place,
-                           "patterns of file names are not supported; expected the file names after LIST");
+                           "file name patterns are not supported; expected the file names after "
+                           "LIST, one per line");
   } else {
     source.file = data_file_beside(file, data.value, data.place);
   }

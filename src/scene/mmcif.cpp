@@ -140,8 +140,9 @@ struct AtomColumns {
 void refuse_small_molecule(std::string_view tag, const LineReader& reader) {
   if (tag != "_atom_site_fract_x") return;
   reader.reject(
-      "the positions are fractions of a unit cell (_atom_site_fract_x), as in CIF files of small "
-      "molecules; expected mmCIF with _atom_site.Cartn_x. To convert: obabel IN.cif -O OUT.xyz");
+      "the file contains fractional coordinates (_atom_site_fract_x), as is usual for "
+      "small-molecule CIF files; expected mmCIF with _atom_site.Cartn_x; to convert: obabel "
+      "IN.cif -O OUT.xyz");
 }
 
 // Reads the tags of a loop whose keyword has been read. Returns nullopt if it is not the loop over
@@ -202,7 +203,7 @@ class AtomRows {
  private:
   std::size_t require(Item item, std::string_view name) const {
     const auto& column = columns_[item];
-    if (!column) reader_.reject(fmt::format("expected the column {}{}", category, name));
+    if (!column) reader_.reject(fmt::format("the column {}{} is missing", category, name));
     return *column;
   }
 
@@ -293,10 +294,10 @@ class ClosingMarks {
   void atoms_follow(const Tokens& tokens) { closed_ = tokens.marks() - at_heading_; }
   void atoms_end(Tokens& tokens, Atoms& atoms, const LineReader& reader) const {
     if (tokens.peek() || tokens.marks_before() > 0 || !closes_heading_ || closed_ == 0) return;
-    if (closed_ >= enough) reader.reject("the file ends here, where '#' was expected");
+    if (closed_ >= enough) reader.reject("unexpected end of file; expected '#'");
     atoms.notes.emplace_back(
         "other sections of the file end with '#', but the atom section does not; the file may be "
-        "truncated, in which case atoms are missing");
+        "truncated, so atoms may be missing");
   }
 
  private:
@@ -312,7 +313,7 @@ std::string_view other_content(std::string_view tag) {
   if (tag.starts_with("_chem_comp_atom.")) {
     return "the file describes a chemical component (_chem_comp_atom), not a structure";
   }
-  if (tag.starts_with("_refln")) return "the file has reflections (_refln), not a structure";
+  if (tag.starts_with("_refln")) return "the file contains reflections (_refln), not a structure";
   return {};
 }
 

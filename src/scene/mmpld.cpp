@@ -69,7 +69,7 @@ class Bytes {
  private:
   void need(std::size_t bytes, std::string_view what) const {
     if (bytes > content_.size() - at_) {
-      reject(fmt::format("the file ends at byte {}, where {} was expected", content_.size(), what));
+      reject(fmt::format("unexpected end of file at byte {}; expected {}", content_.size(), what));
     }
   }
 
@@ -120,7 +120,7 @@ List read_list(Bytes& bytes, int version) {
   list.count = bytes.take<std::uint64_t>("the list's number of particles");
   if (list.count > most_particles) {
     bytes.reject(
-        fmt::format("{} particles are too many; the limit is {}", list.count, most_particles));
+        fmt::format("too many particles: {} (the limit is {})", list.count, most_particles));
   }
   if (list.vertex == VertexType::none && list.count > 0) {
     bytes.reject(fmt::format("expected a list with positions, found {} particles without positions",
@@ -151,7 +151,7 @@ std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
   const auto frames = bytes.take<std::uint32_t>("the number of frames");
   static_cast<void>(bytes.take_many(12, sizeof(float), "the data box and the clipping box"));
   const std::uint64_t table = bytes.at();
-  const auto offsets = bytes.take_many(std::uint64_t{frames} + 1, 8, "the table of frames");
+  const auto offsets = bytes.take_many(std::uint64_t{frames} + 1, 8, "the frame table");
   if (frame >= frames) {
     bytes.reject(
         fmt::format("there is no frame {}; number of frames in the file: {} (the first is frame 0)",
@@ -162,8 +162,8 @@ std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
   if (range[0] < table + offsets.size() || range[1] < range[0] || range[1] > bytes.size()) {
     bytes.move_to(table + frame * 8);
     bytes.reject(
-        fmt::format("expected frame {} between byte {} and the end of the file at byte {}, found "
-                    "it at bytes {} to {}",
+        fmt::format("frame {} must lie between byte {} and the end of the file at byte {}, but "
+                    "the frame table places it at bytes {} to {}",
                     frame, table + offsets.size(), bytes.size(), range[0], range[1]));
   }
   bytes.move_to(range[0]);
@@ -257,11 +257,11 @@ ParticleSet read_mmpld(std::span<const char> content, const std::string& file, s
   }
   if (bytes.at() != end) {
     bytes.reject(
-        fmt::format("expected the frame to end at byte {}, as stated in the table of frames", end));
+        fmt::format("expected the frame to end at byte {}, as declared in the frame table", end));
   }
   if (total == 0) bytes.reject("expected particles, found none");
   if (total > most_particles) {
-    bytes.reject(fmt::format("{} particles are too many; the limit is {}", total, most_particles));
+    bytes.reject(fmt::format("too many particles: {} (the limit is {})", total, most_particles));
   }
   ParticleSet set;
   set.colour = colour;

@@ -40,8 +40,8 @@ class NiftiHeader {
   explicit NiftiHeader(const std::filesystem::path& file)
       : file_(file.string()), bytes_(content_start(file, header_bytes_2)) {
     if (bytes_.size() < header_bytes_1) {
-      reject(fmt::format("the file has {} bytes, but a NIfTI header has {}", bytes_.size(),
-                         header_bytes_1));
+      reject(fmt::format("the file has only {} bytes, but a NIfTI header has {} bytes",
+                         bytes_.size(), header_bytes_1));
     }
     for (const bool big : {false, true}) {
       big_ = big;
@@ -52,7 +52,8 @@ class NiftiHeader {
       return;
     }
     reject(
-        "this is not a NIfTI file, because its first 4 bytes are not a header size (348 or 540)");
+        "this is not a NIfTI file, because its first 4 bytes do not contain a header size (348 "
+        "or 540)");
   }
 
   [[nodiscard]] bool big_endian() const { return big_; }
@@ -109,8 +110,8 @@ class NiftiHeader {
 
   void check_magic() const {
     if (version_ == 2 && bytes_.size() < header_bytes_2) {
-      reject(fmt::format("the file has {} bytes, but a NIfTI-2 header has {}", bytes_.size(),
-                         header_bytes_2));
+      reject(fmt::format("the file has only {} bytes, but a NIfTI-2 header has {} bytes",
+                         bytes_.size(), header_bytes_2));
     }
     const std::string_view magic(bytes_.data() + offsets().magic, 4);
     const char digit = version_ == 1 ? '1' : '2';
@@ -119,12 +120,14 @@ class NiftiHeader {
     const std::string_view stated = std::string_view(bytes_).substr(4, offsets().magic);
     if (std::ranges::count(stated, '\0') == std::ssize(stated)) {
       reject(
-          "the header is empty: it states neither sizes nor a type, so the voxels cannot be read");
+          "the header is empty: it specifies neither dimensions nor a data type, so the voxels "
+          "cannot be read");
     }
     const bool zeros = std::ranges::count(magic, '\0') == 4;
     reject(fmt::format(
-        "the header has the size of a NIfTI-{} header, but {} instead of the format name 'n+{}' or "
-        "'ni{}'; Analyze 7.5 is not supported, because it states no orientation",
+        "the header has the size of a NIfTI-{} header, but contains {} instead of the format name "
+        "'n+{}' or 'ni{}'; Analyze 7.5 is not supported, because it does not specify the "
+        "orientation",
         version_, zeros ? "zero bytes" : fmt::format("'{}'", quotable(magic)), digit, digit));
   }
 
@@ -235,14 +238,13 @@ void note_orientation(const NiftiHeader& header, Volume& volume) {
       const double length = length_of(axes.at(i));
       if (std::abs(length - volume.spacing.at(i)) <= allowed * volume.spacing.at(i)) continue;
       volume.facts.notes.push_back(
-          fmt::format("axis {} has the spacing {} (pixdim), but its column in the matrix (sform) "
-                      "has the length {}; "
-                      "the spacing is used",
+          fmt::format("the spacing of axis {} is {} according to pixdim, but {} according to the "
+                      "sform matrix; the value from pixdim is used",
                       i, volume.spacing.at(i), length));
     }
     if (const std::string sheared = sheared_axes(axes); !sheared.empty()) {
       volume.facts.notes.push_back(
-          fmt::format("{} are not perpendicular in the matrix (sform); the grid is drawn with "
+          fmt::format("{} are not perpendicular in the sform matrix; the grid is drawn with "
                       "perpendicular axes",
                       sheared));
     }
@@ -304,7 +306,9 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   RawVoxels source;
   const std::uint64_t further = take_nifti_sizes(header, volume);
   if (datatype.components > 1 && further > 1) {
-    header.reject("the volume has both colours and a fourth dimension; expected only one of them");
+    header.reject(
+        "the volume has both colour channels and a fourth dimension; only one of them "
+        "is supported");
   }
   volume.spacing = spacing_of(header, volume, file.string());
   volume.facts.unit = unit_name(header.units());
@@ -314,8 +318,8 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   source.start = start_of_voxels(header);
   if (header.is_single_file() && header.vox_offset() == 0) {
     volume.facts.notes.push_back(fmt::format(
-        "vox_offset is 0, so the voxels are read from byte {} on, where they begin in files "
-        "without extensions",
+        "vox_offset is 0, so the voxels are read starting at byte {}, where they begin in files "
+        "without header extensions",
         source.start));
   }
   source.layout.type = datatype.type;

@@ -65,9 +65,9 @@ bool parse_big_endian(const Header& header, const RawVoxels& source) {
   const std::string name = lower_case(field->value);
   if (name == "little") return false;
   if (name == "big") return true;
-  throw core::InputError(field->place,
-                         fmt::format("the byte order '{}' is unknown; expected little or big",
-                                     quotable(field->value)));
+  throw core::InputError(
+      field->place,
+      fmt::format("unknown byte order '{}'; expected little or big", quotable(field->value)));
 }
 
 }  // namespace

@@ -94,7 +94,8 @@ Vector parse_ends(const Field& field, const LeftOut& left_out) {
   const auto words = words_of_axes(field.value, left_out);
   Vector ends{};
   if (words.size() != ends.size()) {
-    throw core::InputError(field.place, fmt::format("expected 3 axis ends, got {}", words.size()));
+    throw core::InputError(field.place,
+                           fmt::format("expected 3 values, one per axis; got {}", words.size()));
   }
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const auto number = parse_number<double>(words[i]);
@@ -147,8 +148,8 @@ std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int
     if (steps == 0) {
       throw core::InputError(
           highest->place,
-          fmt::format("axis {} has a single node-centred sample, so the spacing does not follow "
-                      "from the ends of the axis; expected the field 'spacings'",
+          fmt::format("axis {} has only one node-centred sample, so its spacing cannot be "
+                      "computed from 'axis mins' and 'axis maxs'; expected the field 'spacings'",
                       i));
     }
     spacing.at(i) = usable_spacing(length / steps, size.at(i), highest->place);
@@ -231,8 +232,8 @@ std::size_t component_axis(const Header& header, const std::vector<std::string_v
   if (found.size() == 1 && found.front() < 4) return found.front();
   throw core::InputError(
       place,
-      "expected 3 axes, or 4 axes of which 'kinds' or 'space directions' identifies "
-      "the one that is not spatial, as in 'kinds: vector domain domain domain'");
+      "expected 3 axes, or 4 axes with the non-spatial axis identified by 'kinds' or 'space "
+      "directions', for example 'kinds: vector domain domain domain'");
 }
 
 }  // namespace
@@ -244,8 +245,7 @@ LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
   if (axes != 3 && axes != 4) {
     throw core::InputError(
         dimension.place,
-        fmt::format("the dimension is '{}'; expected 3 axes, or 4 axes of which one "
-                    "is not spatial",
+        fmt::format("the dimension is '{}'; expected 3, or 4 if one axis is not spatial",
                     quotable(dimension.value)));
   }
   if (axes == 3) {

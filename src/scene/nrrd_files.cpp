@@ -56,8 +56,9 @@ std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start,
   for (std::int64_t i = 0; i < count; ++i) {
     in.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
     if (!in || in.eof()) {
-      throw core::InputError(
-          place, fmt::format("{} has only {} lines to skip", file.filename().string(), i));
+      throw core::InputError(place,
+                             fmt::format("'line skip' is too large: {} has only {} lines to skip",
+                                         file.filename().string(), i));
     }
   }
   return static_cast<std::uint64_t>(in.tellg());
@@ -143,7 +144,7 @@ RawVoxels locate(const Header& header, const std::filesystem::path& file) {
     source.start = *header.data_start();
   } else {
     throw core::InputError(header.last_line(),
-                           "the header ends without the blank line before the data");
+                           "the blank line between the header and the data is missing");
   }
   const Field* lines = header.find("line skip");
   const std::int64_t line_count = parse_skip(lines, 0, "a whole number, 0 or more");

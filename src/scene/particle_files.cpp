@@ -33,7 +33,7 @@ GeneratedParticles parse_generated_particles(std::string_view data) {
                          : parse_number<std::uint64_t>(rest.substr(colon + 1));
   if (!count) {
     throw core::InputError(
-        fmt::format("'{}': expected generate:NAME:COUNT with a whole number as COUNT", data));
+        fmt::format("'{}': expected generate:NAME:COUNT, where COUNT is a whole number", data));
   }
   return {rest.substr(0, colon), *count};
 }
@@ -67,8 +67,8 @@ std::span<const char> without_byte_order_mark(const std::vector<char>& content,
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) {
     throw core::InputError(
         {.file = file},
-        "the text is encoded in UTF-16; expected ASCII or UTF-8; to convert it: iconv "
-        "-f UTF-16 -t UTF-8 IN > OUT");
+        "the file is encoded in UTF-16; expected ASCII or UTF-8; to convert: iconv -f UTF-16 -t "
+        "UTF-8 IN > OUT");
   }
   return without_mark(text);
 }

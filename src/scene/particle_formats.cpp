@@ -106,8 +106,8 @@ const ParticleFormat& particle_format(const std::string& file, std::string_view 
   if (begun->name == "LAMMPS dump" && named->name == "LAMMPS data") return *begun;
   throw core::InputError(
       {.file = file},
-      fmt::format("the file name's ending belongs to the format {} ({}), but the content begins like {}; if "
-                  "the content is correct, change the ending to {}",
+      fmt::format("the file extension indicates the format {} ({}), but the content looks like "
+                  "{}; if the content is correct, change the extension to {}",
                   named->name, ending, begun->name, split_words(begun->endings).front()));
 }
 

@@ -304,10 +304,13 @@ constexpr std::array<Generator, 7> generators{{
     {{"droplets", "three dense droplets in thin vapour"}, droplets},
     {{"layer", "a liquid layer across a long box, with vapour on both sides"}, layer},
     {{"plume", "a lattice slab with a crater and an expanding cone of clusters above it"}, plume},
-    {{"coincident", "every position eight times, in different colours, so that depths tie"},
+    {{"coincident",
+      "eight particles of different colours at every position, so that their depths "
+      "are equal"},
      coincident},
     {{"wall", "a wall without gaps, completely visible from +z"}, wall},
-    {{"hidden", "a wall of a tenth of the particles, which hides all other particles"}, hidden},
+    {{"hidden", "a wall made of a tenth of the particles, which hides all other particles"},
+     hidden},
 }};
 
 // Throws InputError for an unknown name or an unsupported count.

@@ -74,8 +74,8 @@ double coordinate(std::string_view line, std::size_t first, std::string_view wha
   const bool is_alone = begins && is_blank_column(line, last + 1);
   if (after_a_number ? !as_specified && !is_alone : !begins || (!as_specified && !is_alone)) {
     reader.reject(
-        fmt::format("{}: '{}' is not separated from the columns next to it; a number that "
-                    "is too wide for its columns cannot be read",
+        fmt::format("{}: '{}' is not separated from the adjacent columns; numbers wider than "
+                    "their columns are not supported",
                     what, quotable(trimmed(field))));
   }
   return value;
@@ -83,7 +83,7 @@ double coordinate(std::string_view line, std::size_t first, std::string_view wha
 
 void add_pdb_atom(Atoms& atoms, std::string_view line, const LineReader& reader) {
   if (line.substr(0, end_of_place).find('\t') != std::string_view::npos) {
-    reader.reject("the atom's line contains tabs; expected fixed columns filled with blanks");
+    reader.reject("the atom record contains tabs; expected fixed-width columns padded with blanks");
   }
   if (line.size() < end_of_place) {
     reader.reject(fmt::format(
@@ -110,8 +110,8 @@ bool is_atom(std::string_view line, const LineReader& reader) {
     if (!word.starts_with(name)) continue;
     if (text.size() > name.size() && is_letter_of_pdb(text[name.size()])) continue;
     reader.reject(
-        fmt::format("'{}' looks like an atom; expected ATOM or HETATM in capitals from "
-                    "column 1 on, followed by blanks or digits",
+        fmt::format("'{}' looks like an atom; expected ATOM or HETATM in capitals, starting in "
+                    "column 1 and followed by blanks or digits",
                     quotable(text.substr(0, 12))));
   }
   return false;
@@ -125,7 +125,7 @@ class PdbFrames {
 
   // Must be called once for each atom. Returns the index of the atom's frame.
   std::uint64_t atom() {
-    if (has_models_ && !in_model_) reader_.reject("expected MODEL before further atoms");
+    if (has_models_ && !in_model_) reader_.reject("expected a MODEL record before further atoms");
     if (!in_model_ && (count_ == 0 || closed_)) ++count_;
     closed_ = false;
     return count_ - 1;
@@ -145,9 +145,9 @@ class PdbFrames {
   }
 
   void finish() const {
-    if (in_model_) reader_.reject("the file ends here, where ENDMDL was expected");
+    if (in_model_) reader_.reject("unexpected end of file; expected ENDMDL");
     const bool cut_off = (is_entry_ && !ended_) || (count_ > 1 && !closed_);
-    if (cut_off) reader_.reject("the file ends here, where END was expected");
+    if (cut_off) reader_.reject("unexpected end of file; expected END");
   }
   [[nodiscard]] std::uint64_t count() const { return count_; }
 
@@ -155,7 +155,7 @@ class PdbFrames {
   void begin_model() {
     if (in_model_) reader_.reject("expected ENDMDL before the next MODEL");
     if (count_ > 0 && !has_models_) {
-      reader_.reject("MODEL is not allowed after atoms outside of models");
+      reader_.reject("a MODEL record is not allowed after atoms that do not belong to a model");
     }
     has_models_ = in_model_ = true;
     ++count_;

@@ -283,9 +283,10 @@ void note_values(Volume& volume, const RawVoxels& source) {
   if (layout.components == 1) return;
   facts.notes.push_back(
       source.component.magnitude
-          ? fmt::format("the magnitude of the {} values of each voxel is drawn", layout.components)
-          : fmt::format("component {} of the {} values of each voxel is drawn; use the factor "
-                        "`component` to draw another component or the magnitude",
+          ? fmt::format("the magnitude of the {} components of each voxel is drawn",
+                        layout.components)
+          : fmt::format("only component {} of the {} components of each voxel is drawn; use the "
+                        "factor `component` to draw another component or the magnitude",
                         source.component.index, layout.components));
 }
 
@@ -300,8 +301,9 @@ void read_voxels(Volume& volume, const RawVoxels& given) {
   }
   const auto needed = value_bytes(volume, layout);
   if (!needed) {
-    throw core::InputError(source.sizes_place,
-                           stated(volume, source) + " need more bytes than a 64-bit number can count");
+    throw core::InputError(
+        source.sizes_place,
+        stated(volume, source) + " need more bytes than a 64-bit integer can represent");
   }
   check_component(source.component, layout.components, source.file);
   const bool plain = is_plain(layout) && !source.component.magnitude;
@@ -337,8 +339,8 @@ void read_stream(Volume& volume, const ValueLayout& layout, const Component& com
   check_component(component, layout.components, file);
   if (!needed || *needed > most_unpacked_bytes) {
     throw core::InputError(source.sizes_place,
-                           fmt::format("{} need more than {} bytes, the largest size that is supported "
-                                       "for this format; convert larger volumes to NRRD",
+                           fmt::format("{} need more than {} bytes, the size limit for this "
+                                       "format; convert larger volumes to NRRD",
                                        stated(volume, source), most_unpacked_bytes));
   }
   const std::uint64_t held = take_values(volume, layout, component, values);
@@ -376,8 +378,9 @@ double usable_spacing(double spacing, int size, const core::FilePlace& place) {
   }
   if (spacing < shortest || spacing * size > longest) {
     throw core::InputError(place,
-                           fmt::format("spacing {} along {} voxels; expected a spacing and an axis "
-                                       "length from {} to {}, as required by single precision",
+                           fmt::format("spacing {} is out of range for an axis of {} voxels; the "
+                                       "spacing and the axis length must be between {} and {}, so "
+                                       "that they fit into single precision",
                                        spacing, size, shortest, longest));
   }
   return spacing;

@@ -94,14 +94,16 @@ Entries from_bytes(std::span<const std::byte> bytes) {
 std::array<double, 4> parse_entry(std::string_view text, const core::FilePlace& place) {
   const auto words = split_words(text);
   if (words.size() != 4) {
-    throw core::InputError(place, fmt::format("expected 'R G B A', got {} words", words.size()));
+    throw core::InputError(place,
+                           fmt::format("expected four values (R G B A), got {}", words.size()));
   }
   std::array<double, 4> entry{};
   for (std::size_t c = 0; c < 4; ++c) {
     const auto number = parse_number<double>(words[c]);
     if (!number || !(*number >= 0 && *number <= 255)) {
       throw core::InputError(
-          place, fmt::format("'{}' is not a channel value; expected a number in 0..255", words[c]));
+          place,
+          fmt::format("'{}' is not a channel value; expected a number from 0 to 255", words[c]));
     }
     entry.at(c) = *number;
   }
@@ -115,7 +117,7 @@ Entries from_text(std::string_view text, const std::string& file) {
   for (const std::string_view line : split_lines(text)) {
     ++place.line;
     if (split_words(line).empty() || line.starts_with('#')) continue;
-    if (values.size() == 256) throw core::InputError(place, "more than 256 entries");
+    if (values.size() == 256) throw core::InputError(place, "the file has more than 256 entries");
     values.push_back(parse_entry(line, place));
     largest = std::max(largest, *std::max_element(values.back().begin(), values.back().end()));
   }

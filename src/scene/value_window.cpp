@@ -83,7 +83,8 @@ class Counted {
 [[noreturn]] void refuse_values(const Volume& volume, Mapping mapping) {
   throw core::InputError(
       mapping == Mapping::logarithmic
-          ? fmt::format("{}: mapping=log needs values above 0, but no voxel has such a value",
+          ? fmt::format("{}: mapping=log requires positive values, but no voxel has a positive "
+                        "value",
                         volume.name)
           : fmt::format("{}: no voxel has a finite value, so there is no range to map",
                         volume.name));
@@ -97,8 +98,8 @@ Range range_of(const Window& window, Counted<Scalar>& counted, const std::string
   const Range range{end(window.lo), end(window.hi)};
   if (range.lo < range.hi) return range;
   throw core::InputError(
-      fmt::format("{}: the window {} is empty (the values range over {}); choose percentiles that "
-                  "are farther apart, or state the ends as numbers",
+      fmt::format("{}: the window {} is empty (the range of the values is {}); choose percentiles "
+                  "that are farther apart, or give the ends as numbers",
                   name, text_of(range), text_of(counted.range())));
 }
 
@@ -111,8 +112,8 @@ void set_window_of(Volume& volume, const std::optional<Window>& window, Mapping 
                              : Range{std::max(volume.range_lo, there.lo), volume.range_hi};
   if (mapping == Mapping::logarithmic && !(range.lo > 0)) {
     throw core::InputError(
-        fmt::format("{}: with mapping=log, a window cannot begin at {}; choose a lower end above 0 "
-                    "(the positive values range over {})",
+        fmt::format("{}: mapping=log requires a window with a positive lower end, but it begins "
+                    "at {} (the range of the positive values is {})",
                     volume.name, range.lo, text_of(there)));
   }
   volume.range_lo = range.lo;

@@ -322,7 +322,7 @@ bool fits_halves(const Volume& volume) {
 VoxelGrid encode(Volume&& volume, VoxelFormat format) {
   if (volume.voxels.size() != volume.voxel_count() * bytes_of(volume.type)) {
     throw core::InputError(
-        fmt::format("volume {} has {} bytes of voxels; expected {}x{}x{} voxels of type {}",
+        fmt::format("volume {} has {} bytes of voxel data; expected {}x{}x{} voxels of type {}",
                     volume.name, volume.voxels.size(), volume.size[0], volume.size[1],
                     volume.size[2], name_of(volume.type)));
   }

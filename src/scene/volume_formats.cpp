@@ -89,8 +89,8 @@ const VolumeFormat& volume_format(const std::filesystem::path& file) {
   if (begun != formats.end() && begun != named) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("the file name's ending belongs to the format {} ({}), but the content begins "
-                    "like {}; if the content is correct, change the ending to {}",
+        fmt::format("the file extension indicates the format {} ({}), but the content looks like "
+                    "{}; if the content is correct, change the extension to {}",
                     named->name, ending, begun->name, split_words(begun->endings).front()));
   }
   return *named;

@@ -130,7 +130,9 @@ class Base64Reader {
     }
     if (letters == 0) return false;
     if (letters < 4) {
-      throw core::InputError({.file = file_}, "data: the base64 text ends within a group of four characters");
+      throw core::InputError({.file = file_},
+                             "data: the base64 data end in the middle of a "
+                             "group of four characters");
     }
     for (unsigned i = 0; i < 3; ++i) {
       group_.at(i) = static_cast<std::byte>(bits >> (16U - 8U * i) & 0xFFU);

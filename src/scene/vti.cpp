@@ -91,8 +91,8 @@ VtiFile read_tags(const std::filesystem::path& file) {
   }
   if (vti.pieces.size() > 1) {
     vti.reject(
-        fmt::format("the file has {} pieces; expected one (in ParaView, use Filters, Merge Blocks "
-                    "or Resample To Image)",
+        fmt::format("the file has {} pieces; expected one (in ParaView, use the filter Merge "
+                    "Blocks or Resample To Image)",
                     vti.pieces.size()));
   }
   if (vti.arrays.empty()) {
@@ -194,7 +194,7 @@ class BlockHeader {
   [[nodiscard]] std::uint64_t take() const {
     std::array<std::byte, 8> bytes{};
     const auto used = std::span(bytes).first(wide_ ? 8 : 4);
-    if (source_(used) != used.size()) vti_.reject("the data end within the block header");
+    if (source_(used) != used.size()) vti_.reject("the data end in the middle of the block header");
     if (big_ == (std::endian::native == std::endian::little)) std::ranges::reverse(used);
     if (!wide_) {
       std::uint32_t value = 0;
@@ -225,7 +225,7 @@ class ZlibBlocks {
     const std::uint64_t last = header.take();
     if (count > most_blocks || size_ > largest || last > size_ || (count > 0 && size_ == 0)) {
       vti.reject(
-          fmt::format("the block sizes are not valid: {} blocks of {} bytes, the last block of {} bytes",
+          fmt::format("invalid block sizes: {} blocks of {} bytes, with a last block of {} bytes",
                       count, size_, last));
     }
     last_ = last == 0 ? size_ : last;
@@ -251,8 +251,8 @@ class ZlibBlocks {
     const std::uint64_t size = next_ == packed_.size() ? last_ : size_;
     // compressBound() is zlib's upper limit for the compressed size of a block of this size.
     if (packed_size > compressBound(static_cast<uLong>(size)) + 64) {
-      reject(fmt::format("{} compressed bytes are too many for a block of {} bytes", packed_size,
-                         size));
+      reject(fmt::format("the compressed size of {} bytes is too large for a block of {} bytes",
+                         packed_size, size));
     }
     input_.resize(static_cast<std::size_t>(packed_size));
     if (source_(input_) != input_.size()) reject("the data end prematurely");
@@ -342,7 +342,7 @@ Volume read_vti(const std::filesystem::path& file, const Component& component) {
                            : vti.root.attribute("byte_order") == "BigEndian";
   if (vti.arrays.size() > 1) {
     volume.facts.notes.push_back(
-        fmt::format("the array '{}' is drawn; it is one of {} arrays in the file",
+        fmt::format("only the array '{}' is drawn, although the file contains {} arrays",
                     quotable(array.tag.attribute("Name")), vti.arrays.size()));
   }
   read_stream(volume, layout, component, open_array(vti, array.tag, file, layout.type), file);

@@ -30,7 +30,7 @@ class VtkLines {
   std::string_view next(std::string_view expected) {
     for (;;) {
       if (rest_.empty()) {
-        reject(fmt::format("the file ends here, where {} was expected", expected));
+        reject(fmt::format("unexpected end of file; expected {}", expected));
       }
       const std::string_view line = any();
       if (!trimmed(line).empty()) return trimmed(line);
@@ -156,7 +156,7 @@ ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
     if (!header.binary) layout.slope = 255;
     layout.components = count_of(lines, words[2]);
   } else if (key == "field") {
-    line = lines.next("an array of the FIELD");
+    line = lines.next("an array in the FIELD");
     words = split_words(line);
     need(4, "name components values type");
     layout.components = count_of(lines, words[1]);
@@ -184,9 +184,10 @@ VtkHeader take_heading(VtkLines& lines) {
   const std::string dataset = lower_case(lines.next("DATASET"));
   const auto words = split_words(dataset);
   if (words.size() != 2 || words[0] != "dataset" || words[1] != "structured_points") {
-    lines.reject(fmt::format("expected DATASET STRUCTURED_POINTS, found '{}'; to convert other "
-                             "datasets, use Filters, Resample To Image in ParaView",
-                             quotable(dataset)));
+    lines.reject(
+        fmt::format("expected DATASET STRUCTURED_POINTS, found '{}'; to convert other "
+                    "datasets, use the ParaView filter Resample To Image",
+                    quotable(dataset)));
   }
   return header;
 }

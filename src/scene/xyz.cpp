@@ -166,9 +166,8 @@ void note_numbers(Atoms& atoms) {
   if (!all) read_as.resize(enough);
   atoms.notes.push_back(
       fmt::format("the first column contains numbers, which are read as atomic numbers: {}{}; if "
-                  "they are LAMMPS "
-                  "types instead, name the elements with dump_modify, or write a .lammpstrj file, "
-                  "which keeps the types",
+                  "they are LAMMPS types instead, name the elements with dump_modify, or write a "
+                  ".lammpstrj file, which preserves the types",
                   fmt::join(read_as, ", "), all ? "" : ", …"));
 }
 
@@ -223,7 +222,7 @@ ParticleSet read_xyz(LineReader& reader, std::uint64_t frame, ColourKind colour)
     }
     const std::uint64_t count =
         reader.count(reader.require("the number of atoms"), "the number of atoms");
-    const std::string atoms_wanted = fmt::format("the last of {} atoms", count);
+    const std::string atoms_wanted = fmt::format("{} atoms", count);
     const std::string_view comment = reader.require("a comment");
     if (current < frame) {
       reader.skip(count, atoms_wanted);

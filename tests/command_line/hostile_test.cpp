@@ -79,7 +79,7 @@ TEST(Hostile, RejectsPipesAndDeviceFilesAsPlans) {
   ASSERT_EQ(::mkfifo((program.folder() / "pipe.yaml").c_str(), 0600), 0);
   for (const char* plan : {"pipe.yaml", "/dev/zero"}) {
     expect_one_line(program.run(std::string("list ") + plan, "{}", "timeout 20"),
-                    "is a pipe or a device, not a file; expected a YAML file");
+                    "is a pipe or a device, not a regular file; expected a YAML file");
   }
 }
 

@@ -89,10 +89,11 @@ TEST(Usage, InvalidGenerators) {
   const Program program;
   program.write("small.yaml",
                 "suite: volume\ndata: [generate:mandelbulb:16, generate:mandelbulb:-5]\n");
-  expect_refused(program.run("list small.yaml"), 3,
-                 "small.yaml:2:32: 'data': generate:mandelbulb: size -5 is outside 1..4096");
+  expect_refused(
+      program.run("list small.yaml"), 3,
+      "small.yaml:2:32: 'data': generate:mandelbulb: size -5 is out of range; expected 1 to 4096");
   expect_refused(program.run("run volume/quick --set data=generate:mandelbulb:999999"), 3,
-                 "size 999999 is outside 1..4096");
+                 "size 999999 is out of range; expected 1 to 4096");
   expect_refused(program.run("list volume/quick --set data=generate:mandelbulb"), 3,
                  "expected generate:NAME:SIZE");
   expect_refused(program.run("list volume/quick --set data=generate:mandelbrot:16"), 3,
@@ -134,14 +135,14 @@ TEST(Usage, AnInterruptSuggestsResumeIfPossible) {
 TEST(Usage, ValidatingWithoutADeviceOrFolder) {
   const Program program;
   expect_refused(program.run("validate --device 'null:*' --out /proc/none"), 3,
-                 "cannot write into");
+                 "cannot write to folder");
   expect_refused(program.run("validate --device 'none:*'"), 2, "no device matches none:*");
 }
 
 TEST(Usage, AReadOnlyFolder) {
   const Program program;
   expect_refused(program.run("run volume/quick --device 'null:*' --store /proc/none/s.sqlite"), 3,
-                 "cannot write into");
+                 "cannot write to folder");
 }
 
 TEST(Usage, AnInvalidStore) {

@@ -180,8 +180,8 @@ void require_no_store(const fs::path& out) {
   std::error_code ignored;
   if (fs::exists(out, ignored)) {
     throw core::InputError({.file = out.string()},
-                           "exists already; choose another name, or remove this file if the stores "
-                           "to be merged contain all of its records");
+                           "already exists; choose another name, or remove this file if the "
+                           "stores to be merged contain all of its records");
   }
   // SQLite would treat a left-over log as the log of the new store.
   if (fs::exists(out.string() + "-wal", ignored) && !fs::is_empty(out.string() + "-wal", ignored)) {

@@ -50,15 +50,17 @@ void require_same_plan(const Found<Run>& known, const Run& run, const fs::path& 
     throw core::InputError(
         {.file = file.string()},
         fmt::format(
-            "contains results for another version of plan {} (hash {}) than {} (hash {}); merge "
-            "only stores with the same version of the plan, and measure the others again",
+            "contains results for plan {} with the hash {}, but {} contains results for another "
+            "version of this plan, with the hash {}; merge only stores with the same version of "
+            "the plan, and measure the others again with that version",
             run.plan, run.plan_hash, known.file.string(), known.value.plan_hash));
   }
   if (run.checks != known.value.checks) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("contains results for plan {} with the checks {}, but {} contains results with "
-                    "the checks {}; measure both with --timed, or both without it",
+        fmt::format("contains results for plan {} with the checks {}, but {} contains results for "
+                    "the same plan with the checks {}; measure both with --timed or both without "
+                    "it",
                     run.plan, text_of(run.checks), known.file.string(),
                     text_of(known.value.checks)));
   }
@@ -92,9 +94,9 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
     throw core::InputError(
         {.file = file.string()},
         fmt::format(
-            "the device {} differs from the device with this id in {} (here: {}; there: {}); "
-            "merge the stores of each driver and machine separately, and compare the "
-            "results with `triptych diff`",
+            "device {} differs from the device with the same id in {} (here: {}; there: {}); "
+            "merge the stores separately for each driver and machine, and compare the results "
+            "with `triptych diff`",
             id, known_file.string(), entry.device.key(), known.device.key()));
   }
   if (seal_of(entry.device, entry.clocks) < seal_of(known.device, known.clocks)) {

@@ -89,9 +89,9 @@ void DataSeen::saw(const std::string& name, std::string_view hash,
   if (is_new || known->second.hash == hash) return;
   throw core::InputError(
       {.file = file.string()},
-      fmt::format("contains results for different data with the same name: {} has the content hash "
-                  "{}, but in {} it has the content hash {}; copy the same files to all machines "
-                  "and measure the shards of one machine again",
+      fmt::format("contains results for different input data under the same name: {} has the "
+                  "content hash {} here, but the content hash in {} is {}; copy the same files to "
+                  "all machines, and measure the shards from one machine again",
                   name, hash, known->second.file.string(), known->second.hash));
 }
 

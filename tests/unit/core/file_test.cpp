@@ -57,7 +57,7 @@ TEST(File, PipesAndDevicesAreNotWaitedFor) {
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const std::filesystem::path& file : {pipe, std::filesystem::path("/dev/zero")}) {
     EXPECT_THAT([&] { (void)read_file(file); },
-                ThrowsMessage<IoError>(HasSubstr("is a pipe or a device, not a file")));
+                ThrowsMessage<IoError>(HasSubstr("is a pipe or a device, not a regular file")));
   }
 }
 

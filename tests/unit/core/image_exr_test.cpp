@@ -192,7 +192,7 @@ TEST(Exr, DistinguishesMissingFromBrokenFiles) {
   EXPECT_THROW((void)read_exr(folder.path() / "none.exr"), IoError);
   const auto text = folder.write("text.exr", "this is no image");
   EXPECT_THAT([&] { (void)read_exr(text); },
-              ThrowsMessage<InputError>(HasSubstr("text.exr: not a usable EXR image")));
+              ThrowsMessage<InputError>(HasSubstr("text.exr: cannot be read as an EXR image")));
 }
 
 TEST(Exr, RejectsInconsistentImages) {

@@ -87,9 +87,10 @@ TEST_F(StoreTest, OtherSchemaVersion) {
       database.exec(std::string("PRAGMA user_version = ") + version);
     }
     for (const Mode mode : {Mode::read, Mode::append}) {
-      EXPECT_THAT(refusal<core::InputError>(file_, mode),
-                  AllOf(HasSubstr(std::string("schema version ") + version),
-                        HasSubstr("reads version 7"), HasSubstr(hint), HasSubstr("--store")));
+      EXPECT_THAT(
+          refusal<core::InputError>(file_, mode),
+          AllOf(HasSubstr(std::string("schema version ") + version),
+                HasSubstr("requires schema version 7"), HasSubstr(hint), HasSubstr("--store")));
     }
   }
 }
@@ -199,9 +200,10 @@ TEST_F(StoreTest, AStringOfManyMegabytesIsRejected) {
 TEST_F(StoreTest, AnInvalidImageIsReported) {
   Store store(file_, Mode::append);
   store.add_image("0123", std::as_bytes(std::span("no picture")));
-  EXPECT_THAT([&] { static_cast<void>(store.picture("0123")); },
-              ThrowsMessage<core::InputError>(AllOf(
-                  StartsWith(file_.string()), HasSubstr("image '0123': not a usable EXR image"))));
+  EXPECT_THAT(
+      [&] { static_cast<void>(store.picture("0123")); },
+      ThrowsMessage<core::InputError>(AllOf(
+          StartsWith(file_.string()), HasSubstr("image '0123': cannot be read as an EXR image"))));
 }
 
 // Access rights

@@ -76,7 +76,8 @@ TEST(LammpsDump, RejectsBrokenFiles) {
   const std::string rows = "1 0 0 0\n2 1 0 0\n";
   expect_refused("a.dump", dump("id x y z", "1", rows),
                  ":11:", "expected the next frame after 1 atoms");
-  expect_refused("a.dump", dump("id x y z", "3", rows), ":11:", "the last of 3 atoms was expected");
+  expect_refused("a.dump", dump("id x y z", "3", rows),
+                 ":11:", "unexpected end of file; expected 3 atoms");
   expect_refused("a.dump", dump("id x y z", "2.5", rows),
                  ":4:", "expected the number of atoms, found '2.5'");
   expect_refused("a.dump", dump("id x y z", "9999999999", rows), ":4:", "too many");
@@ -93,7 +94,7 @@ TEST(LammpsDump, RejectsBrokenFiles) {
   expect_refused("a.dump", "ITEM: ATOMS id x y z\n" + rows, ":1:", "NUMBER OF ATOMS before");
   expect_refused("a.dump", "ITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS xs ys zs\n0 0 0\n",
                  ":3:", "BOX BOUNDS before scaled");
-  expect_refused("a.dump", "ITEM: TIMESTEP\n0\n", ":2:", "where ITEM: ATOMS was expected");
+  expect_refused("a.dump", "ITEM: TIMESTEP\n0\n", ":2:", "expected ITEM: ATOMS");
   expect_refused("a.dump", "TIMESTEP\n0\n", ":1:", "expected 'ITEM: …'");
 }
 
@@ -127,13 +128,14 @@ TEST(LammpsData, RejectsBrokenFiles) {
   const std::string rows = "2 2 1 2 7\n1 1 1 2 3\n";
   expect_refused("a.data", data("Atoms", rows, "1"),
                  ":15:", "expected the section to end after 1 atoms");
-  expect_refused("a.lmp", data("Atoms", rows, "3"), ":15:", "the last of 3 atoms was expected");
+  expect_refused("a.lmp", data("Atoms", rows, "3"),
+                 ":15:", "unexpected end of file; expected 3 atoms");
   expect_refused("a.lmp", data("Atoms", rows + "\n", "3"),
                  ":16:", "the section ends after 2 atoms; expected 3 atoms");
   expect_refused("a.data", data("Atoms # hybrid", rows), ":12:", "found 'hybrid'");
   expect_refused("a.data", data("Atoms # full", rows), ":14:", "expected 7 or");
   expect_refused("a.data", data("Atoms", "1 1 0.5 1 2 3\n2 1 0.5 1 2 3\n"),
-                 ":14:", "the style of atoms with 6 columns is ambiguous");
+                 ":14:", "the atom style is ambiguous for 6 columns");
   // These rows fit both the style `full` and the style `sphere`, the first without and the second
   // with image flags.
   for (const std::string row : {"1 9 1 0.1 1 2 3", "1 9 1 0.1 1 2 3 0 0 0"}) {
@@ -144,7 +146,7 @@ TEST(LammpsData, RejectsBrokenFiles) {
   // The style `electron` has eight columns, and the last three are the position.
   const std::string electron = "1 1 0.5 1 1.0 1.5 2.5 3.5\n";
   expect_refused("a.data", data("Atoms", electron, "1"),
-                 ":14:", "the style of atoms with 8 columns is ambiguous");
+                 ":14:", "the atom style is ambiguous for 8 columns");
   expect_refused("a.data", data("Atoms # atomic", electron, "1"),
                  ":14:", "image flag in x: expected a whole number, found '1.5'");
   expect_refused("a.data", data("Atoms # full", "1 9 1 0.1 1 2 3 0 0 0.5\n", "1"),
@@ -156,7 +158,7 @@ TEST(LammpsData, RejectsBrokenFiles) {
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n2 1 1 - 3\n"), ":15:", "y: expected a number");
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n2x 1 1 1 3\n"),
                  ":15:", "id: expected a whole number");
-  expect_refused("a.data", data("Bonds", ""), ":13:", "where the section Atoms was expected");
+  expect_refused("a.data", data("Bonds", ""), ":13:", "expected the section Atoms");
   expect_refused("a.data", "title\n\nAtoms\n\n1 1 0 0 0\n", ":3:", "expected 'N atoms'");
   expect_refused("a.data", data("Atoms", rows), "",
                  "no frame 1; a LAMMPS data file has only frame 0", "@1");

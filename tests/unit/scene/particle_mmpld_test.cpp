@@ -202,15 +202,15 @@ TEST(Mmpld, ReportsWhatWasExpected) {
   expect_mmpld_refused(file(104, {frame(104, {})}), "version from 100 to 103, found 104");
   expect_mmpld_refused(with(5, 0, 1), "vertex type from 0 to 4, found 5");
   expect_mmpld_refused(with(1, 8, 1), "colour type from 0 to 7, found 8");
-  expect_mmpld_refused(with(1, 0, 2), "where the list's particles was expected");
+  expect_mmpld_refused(with(1, 0, 2), "expected the list's particles");
   expect_mmpld_refused(with(1, 0, 0), "expected the frame to end");
-  expect_mmpld_refused(with(1, 0, 4'294'967'295), "too many; the limit is 4294967294");
+  expect_mmpld_refused(with(1, 0, 4'294'967'295), "(the limit is 4294967294)");
   expect_mmpld_refused(with(1, 0, ~std::uint64_t{0}), "too many");
   expect_mmpld_refused(file(100, {frame(100, {})}), "expected particles");
   expect_mmpld_refused(file(100, {}), "no frame 0; number of frames in the file: 0");
   std::string table = with(1, 0, 1);
   table.replace(60, 8, pack(std::uint64_t{8}));
-  expect_mmpld_refused(table, "expected frame 0 between byte");
+  expect_mmpld_refused(table, "frame 0 must lie between byte");
 }
 
 }  // namespace

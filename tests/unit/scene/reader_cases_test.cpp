@@ -75,7 +75,7 @@ TEST(PdbElements, ComeFromTheResidueIfNamesAreLeftAligned) {
                         pdb_atom("HG2 ", "ARG", here) + pdb_atom("CD  ", "LIG", here) +
                         pdb_atom("CA  ", " CA", here));
   EXPECT_EQ(kinds_of(set), "H1 C2 N1 Ca1");
-  EXPECT_THAT(set.facts.notes, ElementsAre(HasSubstr("no element for 1 atom")));
+  EXPECT_THAT(set.facts.notes, ElementsAre(HasSubstr("not specify the element of 1 atom")));
 }
 
 TEST(PdbElements, ComeFromTheColumnsIfNamesAreRightAligned) {
@@ -136,8 +136,8 @@ TEST(Compression, IsDetectedFromTheContent) {
 }
 
 TEST(Content, OfAnotherFormatIsReported) {
-  expect_refused("a.pdb", "data_1ABC\n#\n", ": ", "begins like mmCIF; if the content is correct");
-  expect_refused("a.xyz", "ITEM: TIMESTEP\n0\n", ": ", "begins like LAMMPS dump");
+  expect_refused("a.pdb", "data_1ABC\n#\n", ": ", "looks like mmCIF; if the content is correct");
+  expect_refused("a.xyz", "ITEM: TIMESTEP\n0\n", ": ", "looks like LAMMPS dump");
   const std::string dump =
       "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x y z\n1 0 0 0\n";
   EXPECT_EQ(load("a.lammps", dump).facts.format, "LAMMPS dump");
@@ -269,10 +269,10 @@ TEST(ReaderCases, EveryRowOfTheTableIsRight) {
   // These files contain no volume: the NIfTI headers are empty, and the VTK files end before the
   // values. nibabel rejects the NIfTI files, and VTK finds no array in the VTK files.
   const std::map<std::string, std::string> reasons{
-      {"v04.nii", "states neither sizes nor a type"},
-      {"v04.nii.gz", "states neither sizes nor a type"},
+      {"v04.nii", "specifies neither dimensions nor a data type"},
+      {"v04.nii.gz", "specifies neither dimensions nor a data type"},
       {"v13.vti", "contains no data"},
-      {"v13.vtk", "where POINT_DATA was expected"}};
+      {"v13.vtk", "expected POINT_DATA"}};
   for (const auto& [file, reason] : reasons) {
     try {
       (void)load_volume(file, {folder});

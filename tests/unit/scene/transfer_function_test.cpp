@@ -98,13 +98,13 @@ TEST(TransferFunction, BrokenFilesAreReportedWithTheirLine) {
     EXPECT_THAT([&] { (void)load_transfer_function(file.string()); },
                 ThrowsMessage<core::InputError>(HasSubstr(file.string() + message)));
   };
-  expect("0 0 0 0\n0 0 0\n", ":2: expected 'R G B A', got 3 words");
+  expect("0 0 0 0\n0 0 0\n", ":2: expected four values (R G B A), got 3");
   expect("0 0 0 0\n\n0 0 zero 0\n", ":3: 'zero' is not a channel value");
-  expect("0 0 0 256\n", ":1: '256' is not a channel value; expected a number in 0..255");
+  expect("0 0 0 256\n", ":1: '256' is not a channel value; expected a number from 0 to 255");
   expect("0 0 0 -1\n", ":1: '-1'");
   expect("0 0 nan 1\n", ":1: 'nan'");
   expect(repeated("0 0 0 0\n", 255), ":255: the file ends after 255 entries; expected 256");
-  expect(repeated("0 0 0 0\n", 257), ":257: more than 256 entries");
+  expect(repeated("0 0 0 0\n", 257), ":257: the file has more than 256 entries");
   expect("", ": the file ends after 0 entries; expected 256");
 }
 

@@ -206,16 +206,16 @@ void expect_window_refused(const Volume& volume, std::string_view window, Mappin
 TEST(Window, ReportsWindowsThatDoNotFitTheVoxels) {
   const Volume zeros = row_of<std::uint8_t>({0, 0, 0, 9}, ScalarType::u8);
   expect_window_refused(zeros, "p1..p50", Mapping::linear,
-                        "row: the window 0..0 is empty (the values range over 0..9)");
+                        "row: the window 0..0 is empty (the range of the values is 0..9)");
   expect_window_refused(zeros, "12..p100", Mapping::linear,
-                        "row: the window 12..9 is empty (the values range over 0..9)");
+                        "row: the window 12..9 is empty (the range of the values is 0..9)");
   expect_window_refused(
       zeros, "-1..5", Mapping::logarithmic,
-      "row: with mapping=log, a window cannot begin at -1; choose a lower end above 0 (the "
-      "positive values range over 9..9)");
+      "row: mapping=log requires a window with a positive lower end, but it begins at -1 (the "
+      "range of the positive values is 9..9)");
   const Volume negative = row_of<float>({-3, -2}, ScalarType::f32);
   expect_window_refused(negative, "full", Mapping::logarithmic,
-                        "row: mapping=log needs values above 0");
+                        "row: mapping=log requires positive values");
   const Volume none = row_of<float>({std::nanf("")}, ScalarType::f32);
   expect_window_refused(none, "p1..p99", Mapping::linear, "row: no voxel has a finite value");
 }
