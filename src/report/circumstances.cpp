@@ -43,7 +43,7 @@ bool lacks_data(record::Outcome outcome, const record::Reason& reason) {
 std::vector<std::string> circumstances(std::span<const judge::GateResult* const> results) {
   std::set<std::string> injected;
   std::size_t injected_records = 0;
-  // Unusable loaders and drivers, by the reason.
+  // Unusable loaders and drivers, by reason.
   std::map<std::string, std::set<std::string>> unusable;
   std::set<std::string> programs;
   std::set<std::string> days;

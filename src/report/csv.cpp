@@ -18,9 +18,9 @@ bool is_number(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-// Returns whether the text gets a leading apostrophe, because a spreadsheet would evaluate it as a
-// formula. Text that begins with an apostrophe gets a second one, so that removing one leading
-// apostrophe restores the original text in all cases.
+// Returns whether the text must get a leading apostrophe. This is the case if a spreadsheet would
+// evaluate the text as a formula, and if the text already begins with an apostrophe. Removing one
+// leading apostrophe therefore always restores the original text.
 bool is_marked(std::string_view text) {
   constexpr std::string_view starts = "=+-@\t\r\n'";
   if (text.empty()) return false;

@@ -10,7 +10,7 @@ namespace triptych::measure {
 struct InstructionCounts {
   int vector = 0;
   int scalar = 0;
-  int memory = 0;  // loads (also scalar loads), stores, image samples, local memory
+  int memory = 0;  // loads (including scalar loads), stores, image samples, local-memory accesses
   int branch = 0;
   int wait = 0;     // waits, scheduling hints, the end of the program
   int fetches = 0;  // the part of `memory` that may sample a volume: loads from images and buffers

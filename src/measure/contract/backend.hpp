@@ -56,7 +56,7 @@ struct Work {
 enum class Purpose : std::uint8_t {
   timing,      // nothing is counted
   statistics,  // pipeline statistics are queried; the frame's time is never used
-  counters     // drawn with a build of the device code that counts; never timed
+  counters     // drawn with the counting build of the device code; never timed
 };
 
 struct Frame {

@@ -19,10 +19,10 @@ struct Equivalent {
 };
 
 // The configurations that one device has measured. Suites know most equivalences in advance
-// (Suite::plain()). This class finds one more, which depends on an image: two configurations that
-// differ only in the threshold for early ray termination are equivalent if no ray's transmittance
-// falls below either threshold. The image of one of the configurations shows whether this is the
-// case.
+// (Suite::plain()). This class finds one more kind of equivalence, which depends on an image: two
+// configurations that differ only in the threshold for early ray termination are equivalent if no
+// ray's transmittance falls below either threshold. The image of one of the configurations shows
+// whether this is the case.
 class Equivalents {
  public:
   [[nodiscard]] std::optional<Equivalent> find(const PlainWork& plain) const;

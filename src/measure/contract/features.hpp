@@ -23,7 +23,7 @@ struct ProbedFeature {
 [[nodiscard]] ProbedFeature judged_feature(std::uint64_t right, std::uint64_t expected,
                                            std::string size);
 
-// Returns the number of values that are equal to `expected(i)`, where i is their index.
+// Returns how many of the values are correct, that is, equal to expected(i) for their index i.
 template <class Value, class Expected>
 [[nodiscard]] std::uint64_t count_right(const std::vector<Value>& values,
                                         const Expected& expected) {

@@ -19,9 +19,9 @@ using OnLoading = std::function<void(const Loading&)>;
 
 // Returns a function that forwards only useful reports to `tell`. If a load takes less than two
 // seconds, no reports are forwarded. If it takes longer, at most one report every two seconds and
-// the final report (share 1) are forwarded. A report begins a new load if its name differs from
-// that of the previous report or if its share is smaller. Each note is forwarded only once. Tests
-// replace the clock `now`.
+// the final report (share 1) are forwarded. A report counts as the beginning of a new load if its
+// name differs from the name in the previous report, or if its share is smaller than the previous
+// share. Each note is forwarded only once. Tests replace the clock `now`.
 [[nodiscard]] OnLoading paced(
     OnLoading tell,
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now);

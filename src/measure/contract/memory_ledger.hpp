@@ -54,11 +54,11 @@ class MemoryLedger {
 
   [[nodiscard]] Entry buffer(std::uint64_t bytes) const { return {sums_, &Sums::buffers, bytes}; }
   [[nodiscard]] Entry image(std::uint64_t bytes) const { return {sums_, &Sums::images, bytes}; }
-  // Counts bytes that every frame uploads to the device. Keep the entry alive for as long as such
-  // frames are drawn.
+  // Counts bytes that are uploaded to the device again in every frame. Keep the entry alive for as
+  // long as frames with this upload are drawn.
   [[nodiscard]] Entry moved(std::uint64_t bytes) const { return {sums_, &Sums::moved, bytes}; }
 
-  // Returns the result of Device::memory().
+  // Returns the counts in the form that Device::memory() returns.
   [[nodiscard]] record::Counts counts() const {
     record::Counts counts{{"buffers", sums_->buffers}, {"images", sums_->images}};
     if (sums_->moved > 0) counts.emplace("moved", sums_->moved);

@@ -1,7 +1,7 @@
 #pragma once
-// Interfaces for the history of one pixel, which consists of the device's results and the results
-// that the reference renderer expects. A class derived from Prepared or Suite that can report such
-// results also implements one of these interfaces.
+// Interfaces for the history of one pixel, which consists of the device's results and the correct
+// results, computed by the reference renderer. A class derived from Prepared or Suite that can
+// report such results also implements one of these interfaces.
 
 #include <cstdint>
 #include <span>
@@ -19,7 +19,7 @@ struct PixelPlace {
   int y = 0;
 };
 
-// The reason that TracesPixel::trace() states if it rejects a work.
+// The reason that the exception of TracesPixel::trace() states if a work cannot be traced.
 inline constexpr const char* not_traced =
     "the history of a pixel cannot be recorded with quadrature=cells; use quadrature=midpoint or "
     "quadrature=preintegrated";

@@ -31,8 +31,8 @@ std::string_view processor_name() {
   return cpu_features().find("avx2") != std::string::npos ? "AVX2" : "SSE";
 }
 
-// Returns the path of Triptych's Valgrind tool in the installation or in the build folder; empty if
-// it is missing.
+// Returns the path of Triptych's Valgrind tool in the installation or in the build folder, or an
+// empty string if the tool is missing.
 std::string tool_file() {
   std::error_code error;
   const fs::path own = fs::read_symlink("/proc/self/exe", error).parent_path();

@@ -199,8 +199,8 @@ const Suite& suite_of(const PlanSource& source, const PlanText& text, const Find
   }
 }
 
-// Returns the place where the factor with the most values is defined. The user should shorten this
-// list if there are too many configurations.
+// Returns the place of the longest list of values, which the user should shorten if there are too
+// many configurations.
 core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& values,
                               const std::vector<const std::vector<PlanEntry>*>& entries,
                               const Overrides& overrides) {
@@ -221,8 +221,8 @@ core::FilePlace longest_place(const PlanSource& source, const ValuesByFactor& va
 // The limit for a run. More configurations are treated as a mistake, because they would take more
 // than a day at a tenth of a second each.
 constexpr std::size_t most_configurations = 1'000'000;
-// The limit for a list. It is higher than the limit for a run, because listing does not store the
-// configurations. It keeps the time for listing below a day.
+// The limit for listing a plan, which keeps the time for listing below a day. It is higher than the
+// limit for a run, because listing does not store the configurations.
 constexpr std::size_t most_listed = 100'000'000;
 
 // A plan that was read, but whose configurations have not been generated yet.

@@ -86,8 +86,8 @@ struct Named {
   Configuration configuration;
 };
 
-// Keeps 1/`parts` of the configurations, rounded up, in the order of the plan: those whose keys
-// have the smallest hashes.
+// Keeps the configurations whose keys have the smallest hashes, in the order of the plan. Their
+// number is 1/`parts` of all configurations, rounded up.
 void keep_fraction(std::size_t parts, std::vector<Named>& all) {
   const std::size_t kept = (all.size() + parts - 1) / parts;
   if (kept == all.size()) return;

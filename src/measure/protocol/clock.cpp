@@ -68,9 +68,9 @@ std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::siz
                      is_short ? ", but frames this short are inconclusive" : "");
 }
 
-// Makes the frames of a work take longer, by finer steps along the rays or by more pixels for the
-// same particles. The kind of work stays the same. Returns false if the frames cannot be made any
-// longer.
+// Makes the frames of a work take longer, by using finer steps along the rays or by drawing the
+// same particles with more pixels. The kind of work stays the same. Returns false if the frames
+// cannot be made any longer.
 bool lengthen(Work& work, double factor) {
   if (auto* volume = std::get_if<VolumeWork>(&work.scene)) {
     constexpr double finest_step_voxels = 1e-3;

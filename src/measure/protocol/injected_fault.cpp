@@ -79,7 +79,8 @@ bool has_levels(const std::string& configuration, const std::string& levels) {
 }
 
 [[noreturn]] void crash() {
-  std::signal(SIGSEGV, SIG_DFL);  // a sanitizer's handler would exit with a code instead
+  // The default action, because a sanitizer's handler would exit with a code instead.
+  std::signal(SIGSEGV, SIG_DFL);
   std::raise(SIGSEGV);
   std::abort();
 }

@@ -305,8 +305,8 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                                   .detail = fmt::format("{} ({})", error.what(), scene.name)});
       }
     }
-    // A device that reports no statistics for the first scene, such as an OpenCL device, reports
-    // none for all other scenes, either.
+    // A device that reports no statistics for the first scene (as under OpenCL) reports no
+    // statistics for the remaining scenes, either.
     if (readings.empty() && unknown.empty()) break;
   }
   Calibration calibration;

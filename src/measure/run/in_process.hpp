@@ -21,7 +21,7 @@ struct TracedPixel {
   PixelPlace place;
   technique::RayTrace trace;  // only for a volume
   core::Image image;          // the image that the tracing build drew
-  // For particles, used instead of `trace` and `image`.
+  // The history for a particle scene, which is used instead of `trace` and `image`.
   std::optional<accuracy::SpriteHistory> sprites = {};
 };
 

@@ -18,8 +18,8 @@ namespace triptych::measure {
 
 class Report;
 
-// Writes every record to the store as soon as it exists. measure_all() throws the same exceptions
-// as run_plans().
+// Writes every record to the store as soon as it is complete. measure_all() throws the same
+// exceptions as run_plans().
 class PlanRun {
  public:
   using Tell = std::function<void(const Progress&)>;

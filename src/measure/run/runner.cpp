@@ -29,7 +29,7 @@ std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
 }
 
 // Throws InputError if the run that is to be resumed contains a configuration that the plan does
-// not contain. This can happen because the run is found by the plan's name only, and the plan may
+// not contain. This can happen because the run is found only by the plan's name, and the plan may
 // have changed since the run began.
 void refuse_another_plan(const record::Run& run, const Plan& plan, const Suite& suite,
                          const record::Store& store) {

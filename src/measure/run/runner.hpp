@@ -1,6 +1,6 @@
 #pragma once
 // Runs a plan with one supervised worker process for each device. Records are stored as soon as
-// they exist.
+// they are complete.
 
 #include <array>
 #include <chrono>

@@ -27,8 +27,8 @@ class SameFailure {
 
   struct Foretold {
     record::Outcome outcome;
-    // The reason why the tried configurations failed, with the levels that they share. It is marked
-    // as not tried.
+    // The reason why the tried configurations failed, with the levels that they share. Its member
+    // `not_tried` is true.
     record::Reason reason;
   };
   // Returns the predicted outcome of the configuration, or nullopt if it has to be tried. A factor

@@ -183,7 +183,7 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
                       driver.icd, driver.name == "nvk" ? " from Debian 13 or later" : ""));
     }
     environment.push_back("VK_DRIVER_FILES=" + icd);
-    environment.push_back("VK_ICD_FILENAMES=" + icd);  // read by loaders before 1.3.207
+    environment.push_back("VK_ICD_FILENAMES=" + icd);  // read by loaders before version 1.3.207
   }
   if (driver.name == "radv") environment.push_back("RADV_FORCE_FAMILY=" + device->family);
   if (!driver.stub.empty()) add_stub(driver, device->family, overrides, environment);

@@ -50,7 +50,7 @@ std::vector<pid_t> children_of(pid_t parent) {
 struct Children {
   std::mutex mutex;
   bool inherits = false;
-  std::set<pid_t> from_before;  // children that this process already had
+  std::set<pid_t> from_before;  // children of this process before it began to inherit
   std::set<pid_t> started;      // started by this process and not yet reaped
 };
 

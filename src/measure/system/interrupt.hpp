@@ -12,9 +12,9 @@
 
 namespace triptych::measure {
 
-// Thrown if a signal asked the run to stop. At this point, its workers have ended, and every record
-// so far is in the store, so the run can be resumed. Callers that have a store and an option
-// --resume print how to continue.
+// Thrown if a signal asked the program to stop a run. At this point, the run's workers have ended,
+// and every record so far is in the store, so the run can be resumed. Callers that have a store and
+// an option --resume print how to continue.
 class Interrupted : public core::Error {
  public:
   explicit Interrupted(int signal, const std::string& what = "interrupted")

@@ -37,8 +37,8 @@ std::string first_line(const char* file) {
   return line;
 }
 
-// Returns the number of CPU cores on which this process may run, which drivers use as the size of
-// their thread pools. It may be smaller than the number of cores of the machine.
+// Returns the number of CPU cores on which this process may run. Drivers use this number as the
+// size of their thread pools. It may be smaller than the number of cores of the machine.
 int usable_cores() {
   cpu_set_t cores;
   CPU_ZERO(&cores);

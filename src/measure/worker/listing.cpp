@@ -101,7 +101,7 @@ void list_compiler(const std::string& id, Listing& listing) {
           fmt::format("the installed driver did not respond within {} s", compiler_limit.count()));
     }
     if (answer == nullptr) {
-      // RADV aborts if it does not support the requested GPU family.
+      // One possible cause is that RADV aborts if it does not support the requested GPU family.
       listing.broken.push_back({.what = id,
                                 .reason = std::string("the installed driver exited without "
                                                       "responding; it may not support this GPU "

@@ -63,7 +63,7 @@ Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
   return protocol;
 }
 
-// Thrown if the input is broken. The configuration is skipped, because this is not the device's
+// Thrown if the input is invalid. The configuration is skipped, because this is not the device's
 // fault.
 struct BadInput : core::NotSupported {
   using NotSupported::NotSupported;
@@ -136,9 +136,9 @@ class Worker {
   [[nodiscard]] const record::Device& info() const { return info_; }
   [[nodiscard]] const std::vector<record::ClockTrust>& clocks() const { return clocks_; }
 
-  // Calibrates the clock and the pipeline statistics for each kind of work. Leaves out those kinds
-  // whose clock is already known, because the supervisor then also has their statistics
-  // calibration. `statistics` states whether pipeline statistics may be read.
+  // Calibrates the clock and the pipeline statistics for each kind of work. Skips the kinds whose
+  // clock is already known, because the supervisor then also knows their statistics calibration.
+  // `statistics` states whether pipeline statistics may be read.
   void calibrate_for(const std::vector<std::string>& kinds, bool statistics) {
     has_statistics_ = statistics;
     if (!info_.compiles_for.empty()) return;
@@ -259,7 +259,7 @@ class Worker {
     return work;
   }
 
-  // Like supported_work(), but throws BadInput for broken input. The message contains the place in
+  // Like supported_work(), but throws BadInput for invalid input. The message states the place in
   // the input.
   Work work_or_skip(Configuration& configuration, const std::vector<std::string>& faults) {
     try {

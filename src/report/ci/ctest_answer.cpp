@@ -24,11 +24,12 @@ std::string number(std::string_view name, double value) {
 }
 
 // Writes an image of a test. `what` becomes a part of the file name. The file is not removed,
-// because CTest reads it after this process has ended. It lies in a private folder, so that no
-// other user can plant a link with its name.
+// because CTest reads it after this process has ended. It is in a private folder, so that no other
+// user can create a link with the same name.
 std::string picture(std::string_view name, std::string test, std::string_view what,
                     const core::Image& image) {
-  // The test id comes from a store, so it must not be able to name a path to another folder.
+  // The test id comes from a store, so characters with which it could name another folder are
+  // replaced.
   std::ranges::replace_if(
       test, [](unsigned char c) { return std::isalnum(c) == 0 && c != '.' && c != '-'; }, '_');
   const core::PrivateFolder folder = core::private_temporary_folder("ctest");

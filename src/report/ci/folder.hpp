@@ -1,6 +1,5 @@
 #pragma once
-// Writes the files about a verdict that a CI system archives, and findings in machine-readable
-// form.
+// Writes the output files of a verdict, which CI systems archive, and converts results to JSON.
 
 #include <filesystem>
 #include <span>
@@ -12,7 +11,7 @@
 
 namespace triptych::report {
 
-// The contents of files that need more data than the verdicts.
+// The contents of the files that cannot be generated from the verdicts alone.
 struct FolderTexts {
   std::string page;          // report.html
   std::string benchmark;     // benchmark.json

@@ -249,8 +249,8 @@ class Figure::Drawing {
     labels_ += text_element(x, y, "start", shape.text, markup(" class=\"on\""));
   }
 
-  // Rotates the label. Its end is at the top of the frame, to the left of the line if there is
-  // space.
+  // Draws the label rotated, so that it ends at the top of the frame. The label is to the left of
+  // the line if there is space.
   void label_upright(const Shape& shape) {
     if (shape.text.empty()) return;
     const double line = x_of(shape.places[0].x);

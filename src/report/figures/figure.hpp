@@ -45,8 +45,8 @@ struct Style {
   double opacity = 1;
   double width = 1.2;  // width of lines
 };
-// Returns the colour of the n-th series. There are eight colours, which then repeat.
 constexpr std::size_t colour_count = 8;
+// Returns the colour of the series with this index. After colour_count series, the colours repeat.
 [[nodiscard]] std::string_view colour_of(std::size_t index);
 
 class Figure {
@@ -115,11 +115,12 @@ class Figure {
   std::vector<Entry> entries_;
 };
 
-// Arranges figures next to each other, each with a heading. On a narrow screen, they wrap.
 struct Titled {
   std::string title;
   Html svg;
 };
+// Arranges figures next to each other, each with its title as a heading. On a narrow screen, the
+// figures wrap.
 [[nodiscard]] Html figures(std::span<const Titled> all);
 
 }  // namespace triptych::report

@@ -78,9 +78,9 @@ std::string to_error(const AccuracyScene& scene, double goal) {
   return cost ? fmt::format("{:.1f} M instructions", *cost / 1e6) : "not reached";
 }
 
-// Appends the number of configurations on the front and the number of dominated configurations. The
-// cost is the time or, if no time was measured, the number of instructions. The cells are empty if
-// neither was measured.
+// Appends the number of configurations on the Pareto front and the number of dominated
+// configurations. The cost is the time or, if no time was measured, the number of instructions. The
+// cells are empty if neither was measured.
 void append_standing(TableRow& row, const AccuracyScene& scene) {
   const auto add = [&](std::size_t front, std::size_t beaten) {
     row.push_back(fmt::to_string(front));

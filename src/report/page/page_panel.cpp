@@ -91,7 +91,7 @@ Html figure(const Html& content, std::string_view caption) {
 }
 
 // Returns the beginning of a panel, with the attributes used by the filters and by the comparison
-// of images, and with the targets of links.
+// of images, and with the anchors for links.
 Html opening(const PictureScene& scene, const SameBits& group, const ShareOfBound* shares) {
   Html ids;
   std::set<std::string_view> checks;

@@ -27,7 +27,7 @@ struct PlanData {
 
 // The findings about an image.
 struct Judged {
-  std::set<std::string_view> checks;  // the checks that judged it
+  std::set<std::string_view> checks;  // the checks that judged the image
   std::string cause;                  // element id of the first open cause; empty if there is none
 };
 using JudgedPictures = std::map<std::string, Judged>;  // the key is picture_id()

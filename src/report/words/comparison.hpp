@@ -44,7 +44,7 @@ namespace triptych::report::words {
 [[nodiscard]] std::string sentence(const comparison::SideBySide& table);
 
 // States that a frame cannot be reduced, because it fails in a different way when it is drawn
-// again. `again` is nullopt if it did not fail again.
+// again. `again` is nullopt if the frame did not fail again.
 [[nodiscard]] std::string fails_differently(const judge::Observation& first,
                                             const std::optional<judge::Observation>& again);
 

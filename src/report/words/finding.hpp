@@ -17,8 +17,8 @@ namespace triptych::report::words {
 // reference image; …".
 [[nodiscard]] std::string text_of(const judge::Observation& what);
 
-// Returns the sentence, together with the waiver that excuses the finding and the result of drawing
-// the configuration again.
+// Returns the finding's sentence, together with the waiver that excuses the finding and the result
+// of drawing the configuration again.
 [[nodiscard]] std::string found(const judge::Finding& finding);
 // Returns the next step that the reader should take, or "" if there is none.
 [[nodiscard]] std::string advice(const judge::Finding& finding);
