@@ -9,9 +9,9 @@
 namespace triptych::accuracy {
 
 // The error of a pixel is the largest absolute difference in any of its four channels, where 1 is
-// full scale. The bound that belongs to this error is that of the same pixel and channel. Pixels
-// that contain a value that is not finite, in either image, are counted separately and excluded
-// from everything else.
+// full scale. This error is compared with the bound for the same pixel and channel. Pixels that
+// contain a value that is not finite, in either image, are counted separately and excluded from
+// everything else.
 struct ImageComparison {
   struct Place {
     int x = -1;  // -1 if no pixel could be compared

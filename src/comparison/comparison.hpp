@@ -71,7 +71,7 @@ struct ComparisonResult {
   record::Device a;
   record::Device b;
   bool timed = false;
-  std::vector<Difference> device;        // between the devices, such as their limits
+  std::vector<Difference> device;        // differences between the devices, such as in their limits
   std::vector<Compared> configurations;  // in the plan's order
   double seconds = 0;
 

@@ -33,7 +33,7 @@ struct ConfigurationDiff {
 };
 
 struct RunDiff {
-  std::vector<Difference> device;  // between the devices, such as their limits
+  std::vector<Difference> device;  // differences between the devices, such as in their limits
   // The configurations of run a in their order, followed by the configurations that only run b has.
   std::vector<ConfigurationDiff> configurations;
 };

@@ -15,7 +15,7 @@ namespace triptych::comparison {
 struct DeviceChange {
   record::Device a;
   record::Device b;
-  std::vector<Difference> device;                 // between the devices, such as their limits
+  std::vector<Difference> device;                 // differences in device properties
   std::vector<ConfigurationDiff> configurations;  // their keys are "PLAN CONFIGURATION"
 
   [[nodiscard]] bool has(DifferenceKind kind) const;

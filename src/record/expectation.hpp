@@ -24,9 +24,10 @@ struct SamePicture {
   // The position in the other image that corresponds to pixel (0, 0) of this image. The other image
   // may be larger.
   std::array<int, 2> at{0, 0};
-  bool to_the_bit = true;  // if false: equal within the sum of both images' bounds
-  bool same_ids = true;    // if false: ids are not compared, because the images number particles
-                           // differently
+  // If false, the images need only be equal within the sum of their bounds.
+  bool to_the_bit = true;
+  // If false, ids are not compared, because the two images number the particles differently.
+  bool same_ids = true;
   float depth_scale = 1;  // depth in the other image divided by depth in this image; a power of two
 };
 

@@ -135,8 +135,8 @@ struct Record {
   [[nodiscard]] bool untimed() const {
     return outcome == Outcome::measured && warm_up_frames == 0 && wall_ns.empty();
   }
-  // Returns the number of instructions per frame in device code and in the driver, which is the
-  // same in every process. Returns nullopt if instructions were not counted.
+  // Returns the number of instructions per frame in device code and in the driver. This number does
+  // not vary between processes. Returns nullopt if instructions were not counted.
   [[nodiscard]] std::optional<std::uint64_t> instructions() const;
   // Returns the number of bytes that device code loaded into the simulated cache, which has lines
   // of 64 bytes.
@@ -153,8 +153,8 @@ struct Record {
   [[nodiscard]] std::string test_id(std::string_view check) const;
 };
 
-// Returns whether the configuration was skipped because its input is broken. This is not the
-// device's fault, so the configuration cannot be judged.
+// Returns whether the configuration was skipped because its input is broken. Broken input is not a
+// fault of the device, so such a configuration cannot be judged.
 [[nodiscard]] inline bool has_bad_input(const Record& record) {
   return record.outcome == Outcome::skipped && record.reason.cause == Cause::bad_input;
 }

@@ -103,8 +103,8 @@ void insert_samples(const SQLite::Database& database, std::int64_t record, std::
 
 using RecordsBySeq = std::unordered_map<std::int64_t, Record*>;
 
-// Calls `read(record, row)` for every row of a table that belongs to a record of the run. The first
-// column of the table refers to the record; `columns` lists the columns to read.
+// Calls `read(record, row)` for every row that a table contains for the records of the run. The
+// first column of the table refers to the record; `columns` lists the columns to read.
 template <typename Read>
 void read_rows(const SQLite::Database& database, std::string_view table, std::string_view columns,
                std::string_view order, std::string_view run, const RecordsBySeq& records,

@@ -19,13 +19,13 @@ enum class AnalyticProblem {
   v1_constant,    // homogeneous box                          exact for every h
   v2_ramp,        // τ = k·z, colour linear in z              order 2 in h
   v3_segment,     // τ and colour linear in z, τ decreasing   order 2 in h
-  v3_plateaus,    // the same between two plateaus            order 2 in h; see below
+  v3_plateaus,    // like v3_segment, between two plateaus    order 2 in h; see below
   v4_gaussian,    // Gaussian blob in the middle of the box   order 2 in h and in the voxel size
   v5_atmosphere,  // τ = τ₀·e^(−z/H), constant colour         order 2 in h
   v6_layers,      // two homogeneous layers along z           irregular in h, ≤ 1 due to the edge
   v7_shell,       // homogeneous between two spheres          as v6_layers in h; 2 in the voxel size
   v8_trilinear,   // τ = k·xyz, constant colour               order 2 in h
-  v9_wave,        // constant τ, lit by a sine gradient      order 2 in h and in the voxel size
+  v9_wave,        // constant τ, lit by a sine gradient       order 2 in h and in the voxel size
 };
 // clang-format on
 inline constexpr std::array analytic_problems{

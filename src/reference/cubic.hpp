@@ -68,7 +68,7 @@ struct Cubic {
     const double half = c2;  // the extrema solve c1 + 2·half·s + 3·c3·s² = 0
     const double discriminant = half * half - 3.0 * c3 * c1;
     if (discriminant > 0.0) {
-      // Compute both roots from a sum without cancellation.
+      // Both roots are computed from a sum, which avoids cancellation.
       const double q = -(half + std::copysign(std::sqrt(discriminant), half));
       double a = c3 != 0.0 ? q / (3.0 * c3) : 0.0;
       double b = q != 0.0 ? c1 / q : 0.0;

@@ -87,7 +87,8 @@ inline Reach reach(const Passage& ray, const Wobble& wobble) {
   const double rounding = 1e-14;
   const double skin = shift + (wobble.skin + rounding) * (ray.distance + ray.radius);
   const double outside = ray.distance - ray.radius;
-  if (std::abs(outside) <= skin) {  // the eye may be on either side, so both are possible
+  if (std::abs(outside) <= skin) {
+    // The eye may be inside or outside the sphere, so both surface points are possible.
     result.farthest = ray.along + slide + result.half_hi;
     result.possible = result.farthest > 0;
   } else if (outside < 0) {

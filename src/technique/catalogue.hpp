@@ -16,8 +16,8 @@ enum class Work : std::uint8_t { compute, draw };
 // How a particle technique finds the pixels of a sphere: by a sprite that covers the sphere, by the
 // tiles of the image that the sphere reaches, or by rays.
 enum class Method : std::uint8_t { sprites, tiles, rays };
-// The vertices that a technique draws for each sphere: none, a single one, or one for each corner
-// of the sprite.
+// The vertices that a technique draws for each sphere: none, one, or one for each corner of the
+// sprite.
 enum class Vertices : std::uint8_t { none, one, corners };
 
 struct Technique {

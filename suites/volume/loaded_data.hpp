@@ -39,7 +39,7 @@ class DataLoader {
   // `folders` must outlive this object.
   explicit DataLoader(const std::vector<std::filesystem::path>& folders) : folders_(folders) {}
 
-  // Loads the volume. For a stress case, `stress` receives the rest of its scene.
+  // Loads the volume. For a stress case, `stress` receives the other parts of its scene.
   [[nodiscard]] scene::Volume read(const measure::Configuration& configuration,
                                    std::optional<StressScene>& stress) const;
   // Loads and encodes the volume. Calls `on_note` with each note of the file reader, which states

@@ -5,10 +5,10 @@
 
 namespace triptych::volume_suite {
 
-// If no brick is empty, skip=distance is the same work as skip=none, because rays detect this at
-// once and take every sample. Stepping from brick to brick (skip=bricks) is additional work even
-// then. Whether early termination changes the work is determined later by comparing images, except
-// for speed_of_light, which ignores early termination.
+// If no brick is empty, skip=distance does the same work as skip=none, because each ray detects
+// this immediately and takes every sample. Stepping from brick to brick (skip=bricks) causes
+// additional work even in this case. Whether early termination changes the work is determined later
+// by comparing images, except for speed_of_light, which ignores early termination.
 [[nodiscard]] measure::PlainWork plain_work(const measure::Configuration& configuration,
                                             const measure::VolumeWork& work);
 

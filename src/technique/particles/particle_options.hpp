@@ -6,8 +6,8 @@
 
 namespace triptych::technique {
 
-// The stage that computes a quantity, if both the vertex stage and the fragment stage could compute
-// it.
+// The shader stage in which a quantity is computed, for quantities that either the vertex stage or
+// the fragment stage can compute.
 enum class ComputedAt : std::uint8_t { vertex, pixel };
 // The cells that are culled: none, the cells outside the view, or the cells outside the view and
 // the hidden cells.

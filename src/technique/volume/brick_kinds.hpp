@@ -12,7 +12,7 @@
 
 namespace triptych::technique {
 
-// How a ray treats a brick. The kernels use the same numbers.
+// How a ray treats a brick. The kernels use the same numeric values.
 enum class BrickKind : std::int32_t {
   invisible = 0,  // the ray skips the brick
   sampled = 1,    // the ray takes its regular samples

@@ -47,8 +47,8 @@ inline constexpr std::int64_t most_cell_passes = 32'768;
   return most_samples(scene) * loops > most_passes;
 }
 
-// The reason that is reported if a volume with such rays would have to be drawn in parts. This is
-// rejected because the loop then takes only one sample per iteration.
+// The error message for a volume that has such long rays but would have to be drawn in parts. This
+// combination is rejected because the loop that draws parts takes only one sample per iteration.
 inline constexpr std::string_view long_rays_in_parts =
     "drawing this volume in parts would need one loop iteration per sample, which is more "
     "iterations than some drivers allow; use a longer step";

@@ -184,7 +184,8 @@ vec4 raycast(ivec2 pixel) {
     }
     if (TRI_ADAPT == 1 && merged && m.i < m.stop) advance_merged(m, grid, ray, step_voxels, enough);
     m.last_visible = m.stop == m.count && m.i < m.stop;
-    // With TRI_PREINTEGRATED, a partial step is the same work as a whole step, so it needs no special treatment.
+    // With TRI_PREINTEGRATED, a partial step requires the same work as a whole step, so it needs no special
+    // treatment.
     if (TRI_PREINTEGRATED == 0) m.stop = min(m.stop, last);
     if (TRI_PREINTEGRATED != 0) m.front = field(grid, ray.p0 + real(m.i) * ray.g);
     while (m.i < m.stop) {

@@ -100,7 +100,7 @@ bool shows(vec4 c) {
 vec2 extrema(vec4 c) {
   float discriminant = c.z * c.z - 3.0 * c.w * c.y;
   if (!(discriminant > 0.0)) return vec2(2.0);
-  // Compute both roots from a sum without cancellation.
+  // Both roots are computed from a sum, which avoids cancellation.
   float q = 0.0 - (c.z + (c.z < 0.0 ? -1.0 : 1.0) * sqrt(discriminant));
   float e = c.w == 0.0 ? 2.0 : q / (3.0 * c.w);
   float f = q == 0.0 ? 2.0 : c.y / q;
