@@ -32,7 +32,7 @@ std::optional<std::string> storage_unsupported(const Api& gl) {
        (gl.VERSION_4_2 != 0 || gl.ARB_shader_image_load_store != 0))) {
     return std::nullopt;
   }
-  return "storage blocks need OpenGL 4.3 or GL_ARB_shader_storage_buffer_object, "
+  return "storage blocks need OpenGL 4.3, or GL_ARB_shader_storage_buffer_object together with "
          "GL_ARB_shading_language_420pack and GL_ARB_shader_image_load_store";
 }
 

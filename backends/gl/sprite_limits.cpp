@@ -60,8 +60,8 @@ std::optional<std::string> sprites_unsupported(const Api& gl, const measure::Par
     return "a depth range from 0 to 1 needs OpenGL 4.5 or GL_ARB_clip_control";
   }
   if (gl.VERSION_4_3 == 0 && (gl.ARB_multi_draw_indirect == 0 || gl.ARB_base_instance == 0)) {
-    return "one draw call per cell needs OpenGL 4.3 or GL_ARB_multi_draw_indirect and "
-           "GL_ARB_base_instance";
+    return "drawing each cell with its own draw call needs OpenGL 4.3, or "
+           "GL_ARB_multi_draw_indirect together with GL_ARB_base_instance";
   }
   if (work.options.conservative_depth && gl.VERSION_4_2 == 0 && gl.ARB_conservative_depth == 0) {
     return "conservative depth needs OpenGL 4.2 or GL_ARB_conservative_depth";

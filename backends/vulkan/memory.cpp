@@ -64,8 +64,8 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
           needed.size, gpu.most_allocated));
     }
     rethrow(error, code_place,
-            fmt::format("for {} bytes of memory type {} in a heap of {} bytes", needed.size, type,
-                        heap_size(gpu, type)));
+            fmt::format("while allocating {} bytes of memory type {} from a heap of {} bytes",
+                        needed.size, type, heap_size(gpu, type)));
   }
 }
 
@@ -227,7 +227,8 @@ void upload(const Gpu& gpu, const Buffer& to, std::span<const std::byte> bytes) 
   const Buffer staging(gpu, bytes.size(), vk::BufferUsageFlagBits::eTransferSrc, Place::upload);
   std::ranges::copy(bytes, staging.mapped().begin());
   if (measure::dump_folder())
-    measure::write_dump("buffer", "bin", bytes, fmt::format("the first {} bytes", bytes.size()));
+    measure::write_dump("buffer", "bin", bytes,
+                        fmt::format("the first {} bytes of a buffer", bytes.size()));
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
     commands.copyBuffer(staging.get(), to.get(), vk::BufferCopy{.size = bytes.size()});
   });

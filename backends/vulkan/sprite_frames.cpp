@@ -158,7 +158,7 @@ void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Draws& 
 
 void SpriteFrames::draw_newly_seen(const vk::raii::CommandBuffer& commands, const Draws& draws,
                                    bool counting) const {
-  const Label label(gpu_, commands, "draw the cells that became visible");
+  const Label label(gpu_, commands, "draw newly visible cells");
   occlusion_->find_farthest(commands, target_.depth());
   if (technique_.draw.meshes) {
     target_.begin(commands, true);

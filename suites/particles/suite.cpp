@@ -162,9 +162,8 @@ void ParticleSuite::load(const Configuration& configuration) {
 
 const StressScene& ParticleSuite::own(std::string_view factor) const {
   if (loaded_.own) return *loaded_.own;
-  throw core::InputError(
-      fmt::format("{}: level 'own' requires data=stress:CASE, but the data are {}", factor,
-                  loaded_.particles->name));
+  throw core::InputError(fmt::format("{}: level 'own' requires data=stress:CASE, found data={}",
+                                     factor, loaded_.particles->name));
 }
 
 scene::Camera ParticleSuite::camera(const Configuration& configuration) const {

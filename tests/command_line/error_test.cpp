@@ -45,7 +45,7 @@ TEST(Error, IsMetByTheFastestCandidate) {
             std::string::npos);
   EXPECT_EQ(kept.output.find("own meets the step-size error limit"), std::string::npos)
       << kept.output;
-  EXPECT_NE(kept.output.find("of 0.001:rms"), std::string::npos) << kept.output;
+  EXPECT_NE(kept.output.find("(limit 0.001:rms)"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("% of the error of an empty image, covered"), std::string::npos)
       << kept.output;
 }
@@ -70,7 +70,7 @@ TEST(Error, UsesTheNamedMetric) {
         program.run(fmt::format("run volume/quick {} --error 0.003:{}", tiny, metric), script);
     EXPECT_EQ(kept.code, 0) << kept.output;
     EXPECT_NE(kept.output.find(fmt::format("({})", metric)), std::string::npos) << kept.output;
-    EXPECT_NE(kept.output.find(fmt::format("of 0.003:{}", metric)), std::string::npos);
+    EXPECT_NE(kept.output.find(fmt::format("(limit 0.003:{})", metric)), std::string::npos);
   }
 }
 
@@ -78,7 +78,8 @@ TEST(Error, ThatAnEmptyImageMeetsGivesNoResult) {
   const Program program;
   const Result empty = program.run("run volume/quick " + std::string(tiny) + " --error 0.9");
   EXPECT_EQ(empty.code, 2) << empty.output;
-  EXPECT_NE(empty.output.find("an empty image already meets 0.9:rms, because its error is"),
+  EXPECT_NE(empty.output.find(
+                "an empty image already meets the error limit 0.9:rms, because its error is"),
             std::string::npos)
       << empty.output;
   EXPECT_NE(empty.output.find("of 256 pixels differ from the background"), std::string::npos)
@@ -100,7 +101,7 @@ TEST(Error, OutOfReachInOneSceneStillMeasuresTheOthers) {
                 "smallest error is"),
             std::string::npos)
       << result.output;
-  EXPECT_NE(result.output.find("of 1e-12:max"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("(limit 1e-12:max)"), std::string::npos) << result.output;
 }
 
 // If the plan leaves the sampler to the device, the quadrature `cells` and the midpoint rule use
@@ -133,8 +134,9 @@ TEST(Error, ThatNoCandidateMeetsIsReportedWithTheSmallest) {
   const Program program;
   const Result missed = program.run("run volume/quick " + std::string(tiny) + " --error 0.001");
   EXPECT_EQ(missed.code, 2) << missed.output;
-  EXPECT_NE(missed.output.find("no candidate meets 0.001:rms; the smallest error is"),
-            std::string::npos)
+  EXPECT_NE(
+      missed.output.find("no candidate meets the error limit 0.001:rms; the smallest error is"),
+      std::string::npos)
       << missed.output;
 }
 

@@ -26,7 +26,7 @@ const Factor& factor_of(const Suite& suite, std::string_view name) {
   const auto found = std::ranges::find(suite.factors(), name, &Factor::name);
   if (found == suite.factors().end()) {
     throw core::InputError(
-        fmt::format("--error chooses the levels of step, quadrature, ert, skip and adapt, but "
+        fmt::format("--error requires the factors step, quadrature, ert, skip and adapt, but "
                     "suite {} has no factor {}",
                     suite.name(), name));
   }
@@ -74,14 +74,15 @@ class Search {
     const std::string name = scene_of(suite_, scene);
     const accuracy::LimitPicture* limit = truths_.limit_of(record_of(scene));
     if (limit == nullptr) {
-      result.out_of_reach.push_back(name + ": has no limit image, so no error can be computed");
+      result.out_of_reach.push_back(name +
+                                    ": this scene has no limit image, so no error can be computed");
       return;
     }
     const auto nothing = accuracy::errors_of_nothing(limit->image);
     if (nothing.of(request_.metric) <= request_.error) {
       result.out_of_reach.push_back(fmt::format(
-          "{}: an empty image already meets {}, because its error is {:.3g} and only "
-          "{} of {} pixels differ from the background; request a smaller error, another "
+          "{}: an empty image already meets the error limit {}, because its error is {:.3g} and "
+          "only {} of {} pixels differ from the background; request a smaller error, another "
           "metric, or a scene that covers more pixels",
           name, text_of(request_), nothing.of(request_.metric), nothing.covered,
           limit->image.pixel_count()));
@@ -280,17 +281,17 @@ std::string describe(const ErrorAnswer& answer, const RequestedError& request) {
   if (answer.record == nullptr) {
     const std::string why = nothing > 0 ? fmt::format("the smallest error is {:.3g}", error)
                                         : std::string("no image was drawn");
-    return fmt::format("{} {}: no candidate meets {}; {}", answer.device, answer.scene,
-                       text_of(request), why);
+    return fmt::format("{} {}: no candidate meets the error limit {}; {}", answer.device,
+                       answer.scene, text_of(request), why);
   }
   std::string factors;
   for (const char* name : chosen_factors) {
     factors += fmt::format("{}={}, ", name, answer.record->factors.at(name));
   }
-  std::string text =
-      fmt::format("{} {}: {}{:.3f} ms, error {:.3g} of {}, {:.2g} % of the error of an empty image",
-                  answer.device, answer.scene, factors, answer.time_ns / 1e6, error,
-                  text_of(request), 100 * error / nothing);
+  std::string text = fmt::format(
+      "{} {}: {}{:.3f} ms, error {:.3g} (limit {}), {:.2g} % of the error of an empty image",
+      answer.device, answer.scene, factors, answer.time_ns / 1e6, error, text_of(request),
+      100 * error / nothing);
   for (const accuracy::Metric metric : accuracy::all_metrics) {
     if (metric == request.metric) continue;
     text += fmt::format(", {} {:.3g}", name_of(metric), answer.errors.of(metric));

@@ -16,8 +16,8 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
     case ParticleFault::wrong_sense:
       // `tiles` always rejects whole spheres by the depth of their front, regardless of the option.
       if (tiles || options.conservative_depth) return std::nullopt;
-      return "the fault wrong_sense requires conservative depth, without which no fragment is "
-             "rejected early";
+      return "the fault wrong_sense requires conservative_depth=on, because otherwise no fragment "
+             "is rejected early";
     case ParticleFault::culled_visible:
       if (options.culling != Culling::none) return std::nullopt;
       return "the fault culled_visible requires culling=frustum or culling=occlusion";

@@ -162,8 +162,8 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   const bool only_fetches = !technique::technique(technique).picture;
   if (only_fetches && !midpoint) {
     return fmt::format(
-        "{} is a lower bound only for quadrature=midpoint, because quadrature={} fetches and looks "
-        "up different data",
+        "{} requires quadrature=midpoint; it is not a lower bound for quadrature={}, which fetches "
+        "and looks up different data",
         technique, quadrature);
   }
   if (scene.quadrature == scene::Quadrature::cells) {
@@ -174,7 +174,7 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   if (auto reason = adapt_reason(technique, scene, options)) return reason;
   if (options.precision == Precision::fp32) return std::nullopt;
   if (only_fetches) {
-    return fmt::format("{} supports only precision=fp32, because it computes almost nothing",
+    return fmt::format("{} supports only precision=fp32, because it performs almost no arithmetic",
                        technique);
   }
   if (!midpoint) {
