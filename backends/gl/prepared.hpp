@@ -33,11 +33,11 @@ class Drawing {
   virtual void submit(const Api& gl, measure::Purpose purpose) = 0;
   // Returns the counters. Called after a counting frame that the device has finished.
   [[nodiscard]] virtual record::Counts counters(const Api& gl) const = 0;
-  // Reads the image. The device has finished drawing it.
+  // Reads the image. Called after the device has finished drawing it.
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
 
-  // Draws a frame for measure::TracesPixel.
+  // Draws a frame that records the history of pixel (x, y), as measure::TracesPixel describes.
   [[nodiscard]] virtual technique::RayTrace trace(const Api& /*gl*/, int /*x*/, int /*y*/) {
     throw core::NotSupported(measure::not_traced);
   }

@@ -170,9 +170,9 @@ class SpriteDrawing final : public Drawing {
     if (work.camera_before) data_.look_from(gl, work, arrangement);
   }
 
-  // The set of hidden cells depends on the previous frames. The first frame after a jump of the
-  // camera draws everything that is visible. Only the second frame skips the hidden cells, and all
-  // later frames do the same work as the second.
+  // Draws two frames, after which the set of hidden cells no longer changes. The first frame after
+  // a jump of the camera draws everything that is visible. The second frame skips the hidden cells,
+  // and all later frames do the same work as the second.
   void settle(const Api& gl) {
     prepare_state(gl);
     for (int frame = 0; frame < 2; ++frame) submit(gl, Purpose::statistics);

@@ -227,7 +227,7 @@ void TileBuffers::clear(const Api& gl) const {
 
 void TileBuffers::start_round(const Api& gl) const {
   gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  copy(gl, zeros_, tile_states_, word, 5 * word);  // skips the count of small spheres
+  copy(gl, zeros_, tile_states_, word, 5 * word);  // keeps word 0, the number of small spheres
 }
 
 }  // namespace triptych::gl_backend

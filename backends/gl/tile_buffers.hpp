@@ -36,7 +36,7 @@ class TileBuffers {
   // Binds the buffers to bindings 6…20 of the shared shaders.
   void bind(const Api& gl) const;
   void choose(const Api& gl, Cells cells) const;
-  // Overwrites all data that a frame writes before reading.
+  // Overwrites all data that a frame writes before it reads them.
   void poison(const Api& gl) const;
   // Clears the tiles and lists. Also clears the pixels if any round draws into them.
   void clear(const Api& gl) const;

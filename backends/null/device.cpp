@@ -202,7 +202,7 @@ class NullDevice final : public measure::Device {
   std::shared_ptr<const Script> script_;
   record::Device info_;
   double factor_;
-  std::map<std::string, std::size_t> prepares_;  // how often each work was prepared
+  std::map<std::string, std::size_t> prepares_;  // number of times that each work was prepared
 };
 
 }  // namespace

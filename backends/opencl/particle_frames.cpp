@@ -58,8 +58,8 @@ measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
   });
 }
 
-// The set of hidden cells depends on the previous frames. The counted frame is the second frame
-// after a reset, because the same cells are hidden in all later frames.
+// The set of hidden cells depends on the previous frame. Therefore this draws the first frame after
+// a reset, so that the counted frame is the second, which skips the same cells as all later frames.
 void ParticleFrames::prepare_counting() {
   if (counting_.empty()) {
     ParticleConstants constants = constants_;

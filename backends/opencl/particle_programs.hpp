@@ -18,8 +18,8 @@ enum class Sprite : std::uint8_t {
   polygon,
   adaptive_polygon,
   // Sprites whose vertices are computed in separate passes (particle_expand.cl):
-  expanded_quad,   // by the counterpart of a geometry stage
-  evaluated_quad,  // by the counterparts of tessellation stages
+  expanded_quad,   // vertices from the counterpart of a geometry stage
+  evaluated_quad,  // vertices from the counterparts of tessellation stages
   point
 };
 // Returns the number of words that these separate passes store per particle: the patch and its

@@ -52,9 +52,9 @@ class VolumeFrames final : public measure::Prepared, public measure::TracesPixel
   cl::Buffer image_;
   cl::Buffer counters_;
   cl::Buffer pauses_;                 // the states of the rays between two parts
-  std::optional<VolumeParts> parts_;  // for a volume that does not fit on the device as a whole
+  std::optional<VolumeParts> parts_;  // set if the volume does not fit on the device as a whole
   std::vector<Launch> timed_;         // one launch, with the injected extra work if there is any
-  std::vector<Launch> counting_;      // one launch, for the image only
+  std::vector<Launch> counting_;      // one launch, without the injected extra work
   FrameRun run_;
   std::vector<std::uint32_t> counts_;
 };

@@ -17,7 +17,7 @@ struct DrawStage {
 
 struct DrawState {
   std::vector<DrawStage> stages;
-  std::vector<vk::VertexInputBindingDescription> vertex_bindings;  // empty: no vertex buffers
+  std::vector<vk::VertexInputBindingDescription> vertex_bindings;  // empty without vertex buffers
   std::vector<vk::VertexInputAttributeDescription> vertex_attributes;
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::eTriangleList;
   std::uint32_t patch_points = 1;  // control points of a patch, for ePatchList

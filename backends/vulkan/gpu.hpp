@@ -25,7 +25,7 @@ struct Extensions {
   std::uint32_t mesh_vertices = 0;          // maxMeshOutputVertices
   std::uint32_t mesh_primitives = 0;        // maxMeshOutputPrimitives
   std::uint32_t mesh_invocations = 0;       // maxMeshWorkGroupInvocations
-  std::uint32_t task_groups = 0;            // maxTaskWorkGroupCount along one axis
+  std::uint32_t task_groups = 0;            // maxTaskWorkGroupCount[0]
 };
 
 // An open device and its only queue, which executes all work. Must outlive all objects that are

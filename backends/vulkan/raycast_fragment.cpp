@@ -1,4 +1,4 @@
-// The raycaster as a fragment shader: one triangle covers a floating-point render target.
+// Traces one ray per fragment of a triangle that covers a floating-point render target.
 #include <algorithm>
 #include <array>
 #include <span>

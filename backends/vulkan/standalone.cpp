@@ -24,8 +24,8 @@ namespace {
 struct Input {
   std::string_view name;
   Binding binding;
-  std::string_view kind;    // the name of the input kind in the template
-  std::string_view format;  // the name of the format in the C API
+  std::string_view kind;    // name of this kind of input in the template
+  std::string_view format;  // name of the format in the C API
   std::array<int, 3> extent{0, 0, 0};
   std::span<const std::byte> bytes;
 };

@@ -36,7 +36,7 @@ class TileBuffers {
               const technique::TileRounds& rounds);
 
   void bind(vk::DescriptorSet set) const;
-  // Overwrites all data that a frame writes before reading.
+  // Overwrites all data that a frame writes before it reads them.
   void poison() const;
   // Clears the tiles. Also clears the pixels if any round draws into them.
   void clear(const vk::raii::CommandBuffer& commands) const;

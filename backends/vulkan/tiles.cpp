@@ -79,7 +79,8 @@ class TilesFrames final : public measure::Prepared {
 // a buffer can have.
 technique::TileRounds rounds_of(const Gpu& gpu, const measure::ParticleWork& work,
                                 const technique::Arrangement& arrangement) {
-  // A dispatch has one work group per cell, all in one dimension. Every device supports this many.
+  // A dispatch has one work group per cell, all along one dimension. Every device supports this
+  // number of work groups.
   constexpr std::uint32_t most_cells = 65535;
   constexpr std::uint64_t enough_entries = std::uint64_t{1} << 24;
   const std::uint64_t times = work.options.extra_work_stride > 0 ? 2 : 1;

@@ -25,7 +25,7 @@ enum Binding : std::uint32_t {
   output_binding = 4,  // only for compute
   counters_binding = 5,
   quadrature_binding = 6,
-  pauses_binding = 7  // for a volume in parts
+  pauses_binding = 7  // used if the volume is drawn in parts
 };
 
 [[nodiscard]] vk::Format texture_format(scene::VoxelFormat format);

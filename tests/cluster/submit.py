@@ -49,7 +49,7 @@ class Submit(unittest.TestCase):
         # Halves of these plans have up to 51 and 150 configurations. Because both plans have an odd number of
         # configurations, one job might get the additional configuration of both plans.
         self.assertEqual(self.shards_of("plan101", "plan299"), 3)
-        # There are at most as many jobs as the largest plan has configurations, because more jobs would be empty.
+        # There are at most as many jobs as the largest plan has configurations, because any additional jobs would be empty.
         self.assertEqual(self.shards_of(*["plan2"] * 500), 2)
 
     def test_what_slurm_refuses_leaves_nothing(self):

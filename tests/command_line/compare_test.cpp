@@ -13,7 +13,7 @@ namespace {
 
 class Compare : public testing::Test {
  protected:
-  // `keys` are more keys for the script, each preceded by a comma.
+  // `keys` contains additional keys for the script, each preceded by a comma.
   [[nodiscard]] std::string script(double speed, int seed, const std::string& keys = "") const {
     return fmt::format(
         R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6{}}})",
@@ -130,7 +130,7 @@ TEST_F(Compare, JsonContainsTheSameResult) {
   const Result result = compare(b_as(1.05), "--json");
   ASSERT_EQ(result.code, 1) << result.output;
   const auto json = nlohmann::json::parse(
-      result.output.substr(result.output.find("\n{") + 1));  // after the progress output
+      result.output.substr(result.output.find("\n{") + 1));  // skips the progress output
   EXPECT_EQ(json.at("exit_code"), 1);
   const auto& compared = json.at("configurations").at(0);
   // The verdict is based on the ratio of these scripted times. A block uses the smallest of several

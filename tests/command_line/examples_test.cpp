@@ -28,7 +28,7 @@ using testing::HasSubstr;
 const fs::path examples = fs::path(TRIPTYCH_SOURCE_FOLDER) / "ci/examples";
 
 struct Job {
-  std::vector<std::string> steps;    // run until the first that fails
+  std::vector<std::string> steps;    // run in order until one of them fails
   std::vector<std::string> at_last;  // run even if a step failed
   std::string kept;                  // the folder in which the CI system keeps artifacts
   std::vector<std::string> reports;  // files and globs that the CI system reads

@@ -110,7 +110,7 @@ inline Outcome follow(pid_t child, long at) {
 
 }  // namespace failing_detail
 
-// `told` is the name of the file in the folder to which the program's output is written.
+// `told` is the name of the file in `folder` to which the program's output is written.
 inline Outcome run_failing(const std::filesystem::path& folder, const std::string& script,
                            const std::vector<std::string>& arguments, const std::string& told,
                            long at = std::numeric_limits<long>::max()) {

@@ -131,7 +131,7 @@ TEST(Gate, AWrongImageIsARegression) {
 TEST(Gate, ThePageAgreesWithTheScreen) {
   const Program program;
   accept_runs(program, right_picture(program), 1);
-  ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);  // the image is wrong
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);  // measures a wrong image
   EXPECT_EQ(program.run(judge_from("s.sqlite") + " --out all").code, 1);
   EXPECT_NE(program.read("all/report.html").find("<h1>FAIL (1)</h1>"), std::string::npos);
   EXPECT_EQ(program.run(judge_from("s.sqlite") + " --check counters --out one").code, 0);

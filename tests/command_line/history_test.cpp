@@ -19,7 +19,7 @@ using ::testing::Not;
 
 class History : public testing::Test {
  protected:
-  // `base_ns` is the time of a frame. `keys` are more keys for the script.
+  // `base_ns` is the time of a frame. `keys` contains additional keys for the script.
   void measure(const std::string& store, const std::string& base_ns, const std::string& keys = "",
                const std::string& how = "") const {
     const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}{}}})",

@@ -65,7 +65,7 @@ inline Ending follow(pid_t child, long at) {
 
 }  // namespace killed_detail
 
-// `told` is the name of the file in the folder to which the program's output is written.
+// `told` is the name of the file in `folder` to which the program's output is written.
 inline Ending run_killed(const std::filesystem::path& folder, const std::string& script,
                          const std::vector<std::string>& arguments, const std::string& told,
                          long at = std::numeric_limits<long>::max()) {

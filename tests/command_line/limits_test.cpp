@@ -100,7 +100,7 @@ TEST(FullDisk, AGateWhoseFilesDoNotFitDoesNotPass) {
   ASSERT_EQ(program.run(any_size + "--set viewport=256 --set data=generate:gaussian_blob:16").code,
             0);
   ASSERT_EQ(program.run("accept volume/quick --reason x --store s.sqlite --baselines b").code, 0);
-  ASSERT_EQ(program.run(gate).code, 1);  // the image is black
+  ASSERT_EQ(program.run(gate).code, 1);  // fails, because the image is black
   const Result result = program.run(gate + " --out out", "{}", files_up_to(66));
   EXPECT_EQ(result.code, 3) << result.output;
   EXPECT_THAT(result.output, HasSubstr("triptych: out/report.html: cannot write"));

@@ -103,7 +103,7 @@ TEST_F(OnlyCompile, AnInjectedFaultIsFoundOnEveryFamily) {
       program.run("gate rays.yaml tiles.yaml --baselines b --store s.sqlite --json");
   EXPECT_EQ(judged.code, 1) << judged.output;
 
-  std::map<std::string, std::map<std::string, double>> grown;  // by device and statistic
+  std::map<std::string, std::map<std::string, double>> grown;  // increase by device and statistic
   for (const core::Json& plan : core::Json::parse(judged.output)) {
     for (const core::Json& finding : plan.at("findings")) {
       EXPECT_EQ(finding.at("cause"), "values_changed");

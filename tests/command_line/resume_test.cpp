@@ -77,7 +77,7 @@ TEST_F(Resume, AValidationCanBeResumed) {
 // The part that was measured is judged, and the missing part does not count as a pass.
 TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
   const Result ended = validate_one(program, "--junit j.xml --json j.json");
-  EXPECT_EQ(ended.code, 1) << ended.output;  // its image is wrong
+  EXPECT_EQ(ended.code, 1) << ended.output;  // the measured image is wrong
   EXPECT_THAT(ended.output, HasSubstr("Triptych   1 device"));
   EXPECT_THAT(ended.output, HasSubstr("exit 1: "));
   EXPECT_THAT(ended.output, HasSubstr("validation/report.html"));

@@ -110,8 +110,8 @@ TEST(Cells, RealVolumesStayWithinTheBoundAndAreBitIdentical) {
   });
 }
 
-// In V1, there is one value, one piece per cell and a constant integrand, so only round-off
-// remains.
+// In V1, the field has a single value, so each cell is a single piece with a constant integrand.
+// Only round-off remains.
 TEST(Cells, V1IsExact) {
   on_every_driver([](measure::Device& device) {
     reference::AnalyticOptions options;

@@ -11,9 +11,9 @@ struct Injected {
   ParticleWork work;
 };
 
-// A fault and a scene that reveals it. The fault "small sprite" needs spheres that `tiles` does not
-// test in whole tiles, ties need coincident spheres, and a lost border needs spheres that overlap
-// several tiles.
+// A fault and a scene that reveals it. The fault `small_sprite` needs spheres that `tiles` does not
+// test in whole tiles, `unresolved_ties` needs coincident spheres, and `lost_at_border` needs
+// spheres that overlap several tiles.
 std::vector<Injected> faults() {
   std::vector<Injected> all;
   all.push_back({"small_sprite", generated_work("uniform", 10000, "orbit_y:1/8", 200)});
@@ -36,7 +36,7 @@ TEST(ParticleFaults, EveryFaultChangesTheImage) {
       with_every_technique(device, injected.work, [&](const measure::Work& whole) {
         measure::Work faulty = whole;
         measure::inject(injected.name, faulty);
-        // the technique does not contain the code that this fault would break
+        // returns if the technique does not contain the code that this fault would break
         if (device.unsupported(faulty)) return;
         EXPECT_FALSE(accuracy::compare(draw(device, faulty), expected, bound).within_bound());
       });

@@ -302,7 +302,7 @@ TEST(Particles, AnImageBeyondTheLimitsIsRejectedOrDrawn) {
   });
 }
 
-// Invalid particles are dropped, and that must not affect their neighbours.
+// Invalid particles must be dropped without affecting their neighbours.
 TEST(Particles, InvalidSpheresAreDropped) {
   const double nan = std::nan("");
   const double inf = std::numeric_limits<double>::infinity();

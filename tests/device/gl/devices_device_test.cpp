@@ -149,7 +149,7 @@ TEST(GlDevices, CountersAndBrickMapsMustFitIntoAStorageBlock) {
     const int edge = std::stoi(device.info().limits.at("GL_MAX_3D_TEXTURE_SIZE"));
     scene::VolumeScene scene = make_scene({.voxel = scene::VoxelFormat::u8});
     auto grid = *scene.grid;
-    const int bricked = static_cast<int>(2 * std::cbrt(most / 4)) + 3;  // bricks of 2³, 4 bytes
+    const int bricked = static_cast<int>(2 * std::cbrt(most / 4)) + 3;  // 4 bytes per 2³ brick
     if (bricked <= edge) {
       grid.size = {bricked, bricked, bricked};
       scene.grid = std::make_shared<const scene::VoxelGrid>(grid);

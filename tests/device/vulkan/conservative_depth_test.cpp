@@ -30,7 +30,7 @@ std::set<std::uint32_t> execution_modes(std::string_view code) {
   return modes;
 }
 
-// Both the timed build and the counting build must declare it.
+// Both the timed build and the counting build must declare conservative depth.
 TEST(ConservativeDepth, IsDeclaredExactlyWhenItIsOn) {
   for (const std::string build : {"", "_counting"}) {
     SCOPED_TRACE(build);

@@ -78,7 +78,7 @@ TEST(VulkanLimits, ABufferIsBoundCompletelyOrNotAtAll) {
   });
 }
 
-// A larger error means that the filter is faulty, and must not widen the bound of images.
+// A filter with an error above this limit is faulty. Its error must not widen the bound of images.
 TEST(VulkanLimits, TheAllowedFilterErrorFollowsFromFormatAndWeights) {
   using enum scene::VoxelFormat;
   const Instance instance;

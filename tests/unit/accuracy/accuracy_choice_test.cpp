@@ -107,8 +107,8 @@ TEST(PictureErrors, ContainEveryMetric) {
   core::Image limit(100, 20);
   core::Image picture = limit;
   for (std::size_t i = 0; i < 20; ++i) limit.rgba[4 * i] = 0.5F;
-  // The first pixel has an error of 0.5, because it is 1 instead of 0.5. The next 19 pixels have the
-  // same error, because they are 0 instead of 0.5.
+  // The first pixel has an error of 0.5, because it is 1 instead of 0.5. The next 19 pixels have
+  // the same error, because they are 0 instead of 0.5.
   picture.rgba[0] = 1.0F;
   const PictureErrors errors = errors_against(limit, picture);
   EXPECT_EQ(errors.covered, 20U);

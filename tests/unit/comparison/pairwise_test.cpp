@@ -201,8 +201,8 @@ Outcomes repeat(const Machine& machine, double shift, int times, std::uint64_t s
   return outcomes;
 }
 
-// By design, at most a share α = 0.01 of the comparisons is wrong on each side. Among 300
-// repetitions, there are then at most 8 errors with a probability above 0.99.
+// The design limits the probability of a wrong verdict to α = 0.01 on each side. With a probability
+// above 0.99, there are then at most 8 wrong verdicts in 300 repetitions.
 constexpr int repetitions = 300;
 constexpr int most_errors = 8;
 

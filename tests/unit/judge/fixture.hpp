@@ -1,6 +1,6 @@
 #pragma once
-// A small world to judge: three devices, each with two scenes drawn in two ways. The store and the
-// folder of baselines are temporary.
+// Test data for the judge: three devices, each with two scenes that are drawn with and without
+// brick skipping. The store and the folder of baselines are temporary.
 
 #include <gtest/gtest.h>
 

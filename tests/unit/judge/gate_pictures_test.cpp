@@ -86,7 +86,7 @@ TEST_F(GateTest, AReferenceImageIsIdentifiedByItsHash) {
       return pair;
     };
   };
-  request_.truth = moved(1e-7F);  // as caused by a different math library
+  request_.truth = moved(1e-7F);  // the effect of a different math library
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
   request_.truth = moved(5e-4F);
   const auto wrong = with(gate("accepted"), Verdict::regression);

@@ -38,7 +38,7 @@ TEST(OpenFragments, AreMoreOnACoarseGridAndWhereSpritesLieTogether) {
   const record::Record fine = record_of(100, 10000, 8);
   EXPECT_GT(open_fragments("fragments", record_of(100, 10000, 4)),
             5 * open_fragments("fragments", fine));
-  record::Record points = fine;  // 1/16 pixel, as with NVIDIA's driver
+  record::Record points = fine;  // NVIDIA's driver has a point margin of 1/16 pixel
   points.precision["point_margin"] = 1.0 / 16;
   EXPECT_GT(open_fragments("fragments", points), 4000 / 16.0 + open_fragments("fragments", fine));
   record::Record together = fine;

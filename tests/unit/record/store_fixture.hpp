@@ -38,8 +38,8 @@ inline std::vector<std::byte> bytes_of(std::string_view text) {
   return {bytes.begin(), bytes.end()};
 }
 
-// Mounts a 1 MiB disk that only this process sees. If users may create namespaces, this does not
-// need root.
+// Mounts a 1 MiB disk that only this process sees. Needs no root privileges if users may create
+// namespaces.
 inline bool mount_small_disk(const std::filesystem::path& folder) {
   const uid_t user = geteuid();
   if (unshare(CLONE_NEWNS) != 0) {

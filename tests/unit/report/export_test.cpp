@@ -136,7 +136,7 @@ TEST_F(ExportTest, ARowForEachRecordAndAColumnForEachFactor) {
   ASSERT_EQ(cost.size(), 3U);
   EXPECT_EQ(cost.at(1).at("unit"), "cache lines");
   EXPECT_EQ(cost.at(2).at("of"), "prepare");
-  EXPECT_EQ(rows("counters").at(0).at("count"), "0");  // counted, with the result 0
+  EXPECT_EQ(rows("counters").at(0).at("count"), "0");  // counted, and not missing
 }
 
 // A value that was not measured must be exported as an empty field, and never as zero.

@@ -177,9 +177,9 @@ TEST(Slices, LieAroundTheCells) {
     EXPECT_EQ(of.bytes.size(), static_cast<std::size_t>(of.count));
     return std::pair{static_cast<int>(of.bytes.front()), of.count};
   };
-  EXPECT_EQ(slices(0, 3), std::pair(0, 3));   // cells 0 … 2: slices 0 … 2
-  EXPECT_EQ(slices(3, 5), std::pair(2, 3));   // between slices 2, 3 and 4
-  EXPECT_EQ(slices(8, 10), std::pair(7, 2));  // the slices of the last part
+  EXPECT_EQ(slices(0, 3), std::pair(0, 3));   // cells 0 … 2 use slices 0 … 2
+  EXPECT_EQ(slices(3, 5), std::pair(2, 3));   // cells 3 and 4 use slices 2 … 4
+  EXPECT_EQ(slices(8, 10), std::pair(7, 2));  // the last cells use slices 7 and 8
 }
 
 }  // namespace
