@@ -24,7 +24,7 @@ void rethrow_as_ours(const std::string& about) {
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw IoError(joined(about, "needs more memory than is available"));
+    throw IoError(joined(about, "not enough memory is available"));
   } catch (const std::filesystem::filesystem_error& error) {
     const std::string file = error.path1().string();
     throw IoError(joined(file.empty() ? about : file, error.code().message()));

@@ -45,7 +45,8 @@ class HashBuilder {
   // The elements must not contain padding bytes.
   template <typename T, std::size_t N>
   HashBuilder& add_array(std::span<T, N> elements) {
-    static_assert(std::endian::native == std::endian::little, "the lowest byte is the first");
+    static_assert(std::endian::native == std::endian::little,
+                  "hashing arrays requires a little-endian machine");
     return add(content_hash(std::as_bytes(elements)));
   }
 

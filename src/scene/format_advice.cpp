@@ -59,14 +59,14 @@ constexpr std::array<Conversion, 14> of_volumes{{
     {".mnc", "a MINC volume", ".nii", "mnc2nii IN.mnc OUT.nii"},
     {".tif .tiff", "a TIFF stack", "raw voxels with explicit dimensions",
      "python3 -c \"import tifffile as t; a=t.imread('IN.tif'); print(a.shape[::-1], a.dtype); "
-     "a.tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:TYPE"},
+     "a.tofile('OUT.raw')\"; then use data=OUT.raw:XxYxZ:TYPE"},
     {".mrc .map .ccp4 .rec .st", "a density map", "raw voxels with explicit dimensions",
      "specify the dimensions and skip the 1024-byte header: data=IN.mrc:XxYxZ:f32:skip=1024"},
     {".npy .npz", "a NumPy array", "raw voxels with explicit dimensions",
      "python3 -c \"import numpy as n; a=n.load('IN.npy'); print(a.shape[::-1], a.dtype); "
-     "a.tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:TYPE"},
+     "a.tofile('OUT.raw')\"; then use data=OUT.raw:XxYxZ:TYPE"},
     {".h5 .hdf5 .hdf .nc .nc4 .bp", "an HDF5 or netCDF file", "raw voxels with explicit dimensions",
-     "h5dump -d DATASET -b LE -o OUT.raw IN.h5; then data=OUT.raw:XxYxZ:TYPE"},
+     "h5dump -d DATASET -b LE -o OUT.raw IN.h5; then use data=OUT.raw:XxYxZ:TYPE"},
     {".vtu .vtp .vts .vtr .vtm .pvd .pvti", "a VTK dataset that is not a single ImageData grid",
      ".vti", "in ParaView: Filters, Resample To Image; then File, Save Data, as .vti"},
     {".czi .lif .ims .oib .nd2 .lsm .stk", "a microscope file", ".nrrd",
@@ -75,13 +75,13 @@ constexpr std::array<Conversion, 14> of_volumes{{
      "in Fiji: File, Import, Image Sequence; then File, Save As, Nrrd"},
     {".img", "the voxel file of an Analyze or NIfTI pair", ".hdr", "use the .hdr file next to it"},
     {".cube .cub .xplor .dx", "a density map from a chemistry program", ".nrrd",
-     "in ChimeraX: open IN; save OUT.mrc; then data=OUT.mrc:XxYxZ:f32:skip=1024"},
+     "in ChimeraX: open IN; save OUT.mrc; then use data=OUT.mrc:XxYxZ:f32:skip=1024"},
     {".pvm .vol .bov .raw .bin .img16 .yuv", "a voxel file whose dimensions must be specified",
      "raw voxels with explicit dimensions",
      "specify the dimensions as data=FILE:XxYxZ:TYPE, for example data=head.raw:256x256x128:u8"},
     {".fits .fit", "an astronomical image", "raw voxels with explicit dimensions",
      "python3 -c \"from astropy.io import fits; a=fits.getdata('IN.fits'); print(a.shape[::-1], "
-     "a.dtype); a.astype('<f4').tofile('OUT.raw')\"; then data=OUT.raw:XxYxZ:f32"},
+     "a.dtype); a.astype('<f4').tofile('OUT.raw')\"; then use data=OUT.raw:XxYxZ:f32"},
 }};
 
 std::string advice(std::string_view ending, std::span<const Conversion> conversions,

@@ -204,8 +204,7 @@ struct Generator {
 
 constexpr std::array<Generator, 8> generators{{
     {{"uniform_box",
-      "a constant value without empty space, with a closed-form solution for every "
-      "ray"},
+      "a constant field without empty space, with a closed-form solution for every ray"},
      uniform_box},
     {{"gradient_box", "a ramp from corner to corner"}, gradient_box},
     {{"frequency_box",

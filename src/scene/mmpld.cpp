@@ -21,7 +21,7 @@ namespace triptych::scene {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
-              "this reader requires a little-endian machine, because the numbers in the file are "
+              "reading MMPLD files requires a little-endian machine, because their numbers are "
               "little-endian");
 
 enum class VertexType : std::uint8_t { none, float_xyz, float_xyzr, short_xyz, double_xyz };

@@ -380,7 +380,7 @@ double usable_spacing(double spacing, int size, const core::FilePlace& place) {
     throw core::InputError(place,
                            fmt::format("spacing {} is out of range for an axis of {} voxels; the "
                                        "spacing and the axis length must be between {} and {}, so "
-                                       "that they fit into single precision",
+                                       "that they can be stored in single precision",
                                        spacing, size, shortest, longest));
   }
   return spacing;

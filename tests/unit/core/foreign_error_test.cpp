@@ -28,7 +28,7 @@ TEST(ForeignError, OtherExceptionsAreConvertedAndNameTheFile) {
   EXPECT_THAT([&] { (void)naming("a.txt", [&] { return none.at(1); }); },
               ThrowsMessage<InputError>(StartsWith("a.txt: cannot be used (map::at")));
   EXPECT_THAT([] { naming("a.txt", [] { throw std::bad_alloc(); }); },
-              ThrowsMessage<IoError>("a.txt: needs more memory than is available"));
+              ThrowsMessage<IoError>("a.txt: not enough memory is available"));
 }
 
 TEST(ForeignError, AFileSystemErrorNamesItsOwnFile) {
