@@ -69,7 +69,7 @@ TEST(Error, UsesTheNamedMetric) {
     const Result kept =
         program.run(fmt::format("run volume/quick {} --error 0.003:{}", tiny, metric), script);
     EXPECT_EQ(kept.code, 0) << kept.output;
-    EXPECT_NE(kept.output.find(fmt::format("({})", metric)), std::string::npos) << kept.output;
+    EXPECT_NE(kept.output.find(fmt::format(", {})", metric)), std::string::npos) << kept.output;
     EXPECT_NE(kept.output.find(fmt::format("(limit 0.003:{})", metric)), std::string::npos);
   }
 }
