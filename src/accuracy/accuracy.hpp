@@ -86,7 +86,7 @@ struct Dominated {
 
 // Configurations that differ only in `step`, sorted by decreasing step.
 struct AccuracyFamily {
-  std::string name;  // such as "ert=0, voxel=f32": the factors that differ between families
+  std::string name;  // factors that differ between families, such as "ert=0, voxel=f32"
   std::vector<std::size_t> members;
   std::optional<Order> order;
 };

@@ -17,7 +17,7 @@ namespace triptych::accuracy {
 
 // The limit image of a scene: the image for step → 0.
 struct LimitPicture {
-  std::string key;  // the same key for all records that share the limit
+  std::string key;  // equal for all records that share this limit image
   core::Image image;
   core::Image uncertainty;  // per pixel, a bound on the distance from the exact limit
   std::optional<core::Image> closed_form;

@@ -26,14 +26,14 @@ struct ExpectedSample {
   std::array<Allowed, 3> place{};   // in voxels
   std::optional<Allowed> front;     // normalised value at the beginning of a step
   Allowed value;                    // normalised value at the sample, or at the end of a step
-  std::array<Allowed, 3> colour{};  // not premultiplied, after shading
+  std::array<Allowed, 3> colour{};  // colour after shading, not premultiplied
   std::optional<Allowed> alpha;     // opacity per voxel length; not set for a step
   Allowed length;                   // in voxel lengths
   Allowed opacity;                  // opacity over `length`
 };
 
 struct ExpectedRay {
-  std::array<double, 3> entry{};        // where the ray enters the volume, in voxels
+  std::array<double, 3> entry{};        // entry point of the ray into the volume, in voxels
   std::array<double, 3> stride{};       // length of one step, in voxels
   std::vector<ExpectedSample> samples;  // samples of every index from 0 on; empty if the ray misses
   double ends_below = 0;                // transmittance below which a device may end the ray
@@ -70,9 +70,9 @@ enum class Operation : std::uint8_t {
 
 struct SampleRow {
   std::optional<ExpectedSample> expected;  // nullopt beyond the end of the ray
-  std::optional<TakenSample> taken;        // nullopt if it was skipped, or the ray had ended
+  std::optional<TakenSample> taken;        // nullopt if the device skipped it or had ended the ray
   std::int64_t index = 0;
-  bool compared = true;              // false for merged samples
+  bool compared = true;              // whether the samples were compared; false for merged samples
   std::optional<Operation> differs;  // the first operation whose result is outside its bound
 };
 

@@ -52,7 +52,7 @@ struct SpriteRow {
 };
 
 struct SpriteHistory {
-  std::vector<SpriteRow> rows;       // from front to back
+  std::vector<SpriteRow> rows;       // sorted from front to back
   std::size_t left_out = 0;          // number of spheres behind these, which were not drawn
   std::optional<std::size_t> first;  // the first row that differs
   // If the pixel is wrong but no row is wrong, these are the ids of the smallest set of spheres

@@ -18,7 +18,7 @@ struct ComparedSide {
   const record::Device& device;
   const core::Image& image;  // empty if the technique produces no image
   const judge::TruthPair* truth = nullptr;
-  std::string no_truth = {};  // why there is no reference image
+  std::string no_truth = {};  // the reason if there is no reference image
   judge::FindOpenCounts open_counts = {};
 };
 

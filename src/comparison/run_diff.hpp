@@ -29,7 +29,7 @@ struct ConfigurationDiff {
   TimeReason no_time;
   std::optional<record::Outcome> ended;
   std::optional<judge::WorkChange> work;       // change from a to b
-  std::array<bool, 2> device_clock_trusted{};  // for a and for b
+  std::array<bool, 2> device_clock_trusted{};  // whether the device clocks of a and b are trusted
 };
 
 struct RunDiff {

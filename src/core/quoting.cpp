@@ -109,7 +109,7 @@ std::string take_printable(std::string_view& text) {
 
 std::string printable(std::string_view text, std::size_t limit) {
   std::string result;
-  std::size_t before_last = 0;  // where the text is cut if it is too long
+  std::size_t before_last = 0;  // position at which text that is too long is cut
   for (std::size_t count = 0; !text.empty(); ++count) {
     if (count + 1 == limit) before_last = result.size();
     if (count == limit) {

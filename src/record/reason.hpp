@@ -62,7 +62,7 @@ enum class Stage : std::uint8_t {
 struct Reason {
   Cause cause = Cause::none;
   Stage stage = Stage::working;
-  std::map<std::string, double> numbers = {};  // by name; each name contains the unit
+  std::map<std::string, double> numbers = {};  // values by name; each name includes the unit
   std::string subject = {};                    // the name of an API call, a device, a data set, …
   std::string code = {};                       // the error code of an API call
   // The configuration was not attempted, because other configurations with the levels

@@ -25,10 +25,10 @@ namespace triptych::record {
 struct Device {
   std::string id;
   std::string api;   // "opencl", "vulkan", "gl", "null"
-  std::string name;  // as the driver reports it
+  std::string name;  // name of the device, as reported by the driver
   std::string vendor;
   std::string driver;          // name of the driver
-  std::string driver_version;  // as the driver reports it, on one line
+  std::string driver_version;  // as reported by the driver, on one line
   std::string api_version;
   std::string cpu_features;  // the CPU features for which code is generated; empty for a GPU
   // The environment variables that affect code generation and that were set.

@@ -147,7 +147,7 @@ class CellRule {
     double error = 0;      // error of these positions
     bool certain = false;  // whether the part is visible on every device
     bool touches_a_kink = false;
-    std::array<double, 2> of_cell{};  // where the ray enters and leaves the cell
+    std::array<double, 2> of_cell{};  // distances at which the ray enters and leaves the cell
   };
 
   // Returns the part if it may be visible on a device, and nullopt otherwise.

@@ -14,7 +14,7 @@ namespace triptych::reference {
 struct Ray {
   glm::dvec3 direction{};        // unit vector in world space
   glm::dvec3 voxels_per_unit{};  // direction / spacing
-  glm::dvec3 entry{};            // where the ray enters the volume
+  glm::dvec3 entry{};            // entry point into the volume
   double length = 0;             // length of the chord inside the volume; 0 if the ray misses it
   double shortest = 0;           // length of the shortest chord on any device
   double longest = 0;            // length of the longest chord on any device

@@ -79,8 +79,9 @@ class SphereTracer {
   struct View {
     glm::dvec3 direction{};
     double along = 0;  // cosine between the ray and the view axis
-    Wobble margin;     // in a certain pixel, all rays within it hit the same particle
-    Wobble lateral;    // errors of the ray and of spheres on a device
+    // A pixel is certain only if all rays within this margin hit the same particle.
+    Wobble margin;
+    Wobble lateral;  // errors of the ray and of spheres on a device
   };
 
   [[nodiscard]] View view(int x, int y) const;

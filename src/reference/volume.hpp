@@ -15,7 +15,7 @@ namespace triptych::reference {
 // (suites/volume/tolerance.hpp). Each term is a worst case for one operation. The renderer
 // propagates these errors along each ray.
 struct ErrorModel {
-  double position_error_voxels = 0;  // of a sample's position, per axis
+  double position_error_voxels = 0;  // error of a sample's position, per axis
   double value_error = 0;            // absolute, of a normalised value, without filter_weight_error
   // Relative error of every voxel, for normalised values, which are not negative.
   double voxel_rounding = 0;

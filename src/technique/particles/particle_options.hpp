@@ -42,7 +42,7 @@ struct ParticleOptions {
   ComputedAt transfer = ComputedAt::vertex;  // where the transfer function is evaluated
   ComputedAt ray = ComputedAt::pixel;        // where the ray is computed
   bool conservative_depth = false;
-  int corners = 4;  // for polygon_tess: 4…8, 16, 32
+  int corners = 4;  // number of corners for polygon_tess: 4…8, 16, 32
   Culling culling = Culling::frustum;
   Structure structure = Structure::built_once;
   ParticleFault fault = ParticleFault::none;

@@ -45,7 +45,8 @@ class NeedBound {
 
   [[nodiscard]] Need of(const Arrangement& arrangement, const Cell& cell) const {
     Need all;
-    std::array<double, 64> passes{};  // for each invocation of a work group of tiles_bin
+    // The number of loop iterations of each invocation in a work group of tiles_bin.
+    std::array<double, 64> passes{};
     for (std::size_t k = 0; k < cell.count; ++k) {
       const Need need = of(arrangement.sphere(cell.begin + k));
       all.add(need);

@@ -12,7 +12,7 @@ namespace triptych::technique {
 namespace {
 
 constexpr std::size_t entries = 256;
-constexpr double most_extinction = 8192;  // per voxel length, for an entry of opacity 1
+constexpr double most_extinction = 8192;  // extinction per voxel length for an entry of opacity 1
 
 // The optical depth of a path and the moments of its colours. x is the optical depth from the
 // beginning of the path, per cell and in natural units. The members are ∫dx and, for each colour

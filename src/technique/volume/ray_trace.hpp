@@ -36,8 +36,8 @@ struct TracedSample {
   TracedKind kind = TracedKind::sample;
   std::array<float, 3> place{};     // position in voxels; for a step, its middle
   float value = 0;                  // normalised value; for a step, the value at its end
-  float front = 0;                  // for a step, the value at its beginning
-  std::array<float, 4> colour{};    // not premultiplied, after shading; opacity per voxel length
+  float front = 0;                  // normalised value at the beginning of a step
+  std::array<float, 4> colour{};    // after shading, not premultiplied; alpha: per voxel length
   float length = 0;                 // ray length covered by the sample, in voxel lengths
   float opacity = 0;                // opacity of that length
   float transmittance = 0;          // transmittance after the sample

@@ -80,7 +80,7 @@ struct BasicRaycastParameters {
   Four value_map;
   Four shading;                             // ambient, diffuse, specular; w: parts per cell
   Four background;                          // premultiplied RGBA
-  std::array<std::int32_t, 4> volume_size;  // in voxels; w: log2 of the specular exponent
+  std::array<std::int32_t, 4> volume_size;  // xyz: size in voxels; w: log2 of the specular exponent
   // Bricks per axis. w is the edge of a brick in voxels; 0 means no skipping.
   std::array<std::int32_t, 4> brick_grid;
   // Width and height, and the arguments `stride` and `again` of tri_drawn_column.

@@ -143,7 +143,7 @@ real3 shade(Grid grid, real3 colour, real3 p, real3 d) {
 }
 
 struct Ray {
-  real3 p0;    // where the ray enters the box, in voxels
+  real3 p0;    // entry point of the ray into the box, in voxels
   real3 g;     // one step, in voxels
   real3 d;     // unit direction in world space
   real steps;  // length inside the box, in steps

@@ -10,7 +10,7 @@
 // The data of a ray that is needed to walk from cell to cell. Cell i is between the voxels i and i+1. The first cell
 // (−1) and the last cell are the half voxels at the faces of the volume, where values are clamped.
 struct Way {
-  vec3 p0;         // where the ray enters the volume, relative to the first voxel's centre
+  vec3 p0;         // entry point of the ray into the volume, relative to the first voxel's centre
   vec3 g;          // one step, in voxels
   vec3 inverse_g;
   ivec3 forward;   // 1 if the ray runs towards higher indices, otherwise 0

@@ -6,8 +6,8 @@ struct Walk {
   ivec3 direction;  // −1 or +1 per axis
   real3 first;      // in steps
   real3 spacing;    // in steps; 0 if the ray never crosses a face of this axis
-  real3 at;         // where the ray crosses the brick's far face of each axis, in steps
-  real leave;       // where the ray leaves the brick: the smallest component of `at`
+  real3 at;         // distances, in steps, at which the ray crosses the brick's far face of each axis
+  real leave;       // distance at which the ray leaves the brick: the smallest component of `at`
   bool visible;     // also true outside the grid, so that the rest of the ray is sampled if rounding leads there
   int kind;         // technique::BrickKind of a visible brick, with TRI_ADAPT
   bool outside;
@@ -78,7 +78,7 @@ ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
 // Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each leap starts from the exact
 // position of a sample, so errors do not accumulate.
 struct Leaps {
-  real3 p0;    // where the ray enters, relative to the first voxel's centre, which is where bricks begin
+  real3 p0;    // entry point of the ray, relative to the first voxel's centre, where the first brick begins
   real3 inverse_g;
   real edge;   // edge of a brick, in voxels
   real inverse_edge;
