@@ -127,14 +127,14 @@ std::vector<CalibrationScene> draw_scenes() {
   for (const QuadTechnique& technique : quad_techniques()) {
     const ParticleWork one = around_the_eye();
     CalibrationScene& whole = scenes.emplace_back();
-    whole.name = fmt::format("one {} sprite covering the whole viewport", technique.id);
+    whole.name = fmt::format("one sprite of {} over the whole view", technique.id);
     whole.expected = counts_of(technique, 1);
     whole.expected["fragment_invocations"] =
         static_cast<std::uint64_t>(one.scene.width) * static_cast<std::uint64_t>(one.scene.height);
     whole.work = {.technique = std::string(technique.id), .scene = one};
 
     CalibrationScene& many = scenes.emplace_back();
-    many.name = fmt::format("{} small {} sprites", small_sprites, technique.id);
+    many.name = fmt::format("{} small sprites of {}", small_sprites, technique.id);
     many.expected = counts_of(technique, small_sprites);
     many.counts_fragments = true;
     many.work = {.technique = std::string(technique.id), .scene = many_small()};
