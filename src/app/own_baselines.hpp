@@ -18,11 +18,12 @@ class OwnBaselines {
   OwnBaselines(const OwnBaselines&) = delete;
   OwnBaselines& operator=(const OwnBaselines&) = delete;
 
-  // The folder to write to.
+  // Returns the folder to write to.
   [[nodiscard]] const std::filesystem::path& folder() const { return working_; }
-  // The name that the folder has after all plans have been accepted.
+  // Returns the name that the folder has after all plans have been accepted.
   [[nodiscard]] const std::filesystem::path& name() const { return name_; }
-  // The folder from which the baselines were copied; empty if nothing was copied.
+  // Returns the folder from which the baselines were copied, or an empty path if nothing was
+  // copied.
   [[nodiscard]] const std::filesystem::path& copied_from() const { return copied_from_; }
   // Makes the copy permanent. Call this after all plans have been accepted.
   void keep();

@@ -63,7 +63,7 @@ enum class Cause : std::uint8_t {
   data_changed,        // the data have changed since they were measured [<hash> <now>]
   no_baselines,        // there are no baselines [<folder>]
   nothing_decided,     // no check reached a verdict for the device
-  device_fault,        // a fault not in a configuration [<kind> <subject> <last_words>, detail]
+  device_fault,        // a fault outside of configurations [<kind> <subject> <last_words>, detail]
   unused_waiver,      // a waiver has expired and excuses nothing [<test> <device> <expiry>, detail]
   waiver_of_no_test,  // a waiver matches no test [<test>]
 

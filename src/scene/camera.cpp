@@ -158,7 +158,7 @@ double coverage(const Stage& stage, const Pose& pose) {
 
 Pose random_view(const Stage& stage, std::uint64_t seed) {
   // For any box, this loop needs only a few iterations, because a camera farther away than L/2 + D
-  // sees most of the box.
+  // (see camera.hpp) sees most of the box.
   core::Random random(seed);
   Pose pose = random_pose(stage, random);
   while (coverage(stage, pose) < random_view_coverage) pose = random_pose(stage, random);

@@ -22,7 +22,7 @@ namespace {
 struct Magic {
   std::string_view bytes;
   std::string_view name;
-  std::string_view command;  // a command that unpacks such a file
+  std::string_view command;  // a command that decompresses such a file
 };
 constexpr std::array<Magic, 5> foreign{{{"\xFD"
                                          "7zXZ",

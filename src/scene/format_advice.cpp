@@ -13,8 +13,8 @@
 namespace triptych::scene {
 namespace {
 
-// An unsupported format, the closest supported format, and a command of a common program that
-// converts the file.
+// An unsupported format, the closest supported format, and a command line that converts the file
+// with a common program.
 struct Conversion {
   std::string_view endings;
   std::string_view what;

@@ -31,8 +31,8 @@ Half::operator double() const {
 }
 
 // Imath and glm cannot be used, because they convert from float, and a double would be rounded
-// twice. Here the value is rounded to an integer number of quanta. If that number reaches the next
-// power of two, it carries into the exponent.
+// twice. Here the value is rounded to a multiple of the spacing between neighbouring halves. If the
+// result is the next power of two, the rounding carries into the exponent.
 Half to_half(double value) {
   const double size = std::abs(value);
   unsigned bits = infinity;

@@ -16,8 +16,8 @@ inline constexpr std::uint64_t most_unpacked_bytes = std::uint64_t{1} << 30;
 // Throws InputError with the message that the file decompresses to more than `most` bytes.
 [[noreturn]] void refuse_unpacked(const std::string& file, std::uint64_t most);
 
-// Fills a buffer and returns the number of bytes read, which is smaller than the buffer only at the
-// end of the data.
+// A function that fills a buffer and returns the number of bytes read, which is smaller than the
+// buffer only at the end of the data.
 using ByteSource = std::function<std::size_t(std::span<std::byte>)>;
 
 enum class Wrapper : std::uint8_t { gzip, gzip_or_zlib };

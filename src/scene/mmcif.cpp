@@ -43,8 +43,8 @@ class Tokens {
     return ahead_;
   }
   void take() { ahead_.reset(); }
-  // The number of lines that begin with '#' before the current word (or before the end of the
-  // file). marks() counts all of these lines, and marks_before() only those directly before the
+  // Return the number of lines that begin with '#' before the current word (or before the end of
+  // the file). marks() counts all of these lines, and marks_before() only those directly before the
   // word.
   [[nodiscard]] std::uint64_t marks() const { return marks_; }
   [[nodiscard]] std::uint64_t marks_before() const { return marks_before_; }

@@ -38,7 +38,8 @@ enum class ColourType : std::uint8_t {
 constexpr std::array<std::size_t, 5> vertex_bytes{0, 12, 16, 6, 24};
 constexpr std::array<std::size_t, 8> colour_bytes{0, 3, 4, 4, 12, 16, 8, 8};
 
-// Reads numbers at a current position. Every read is checked against the end of the data.
+// Reads numbers from the current position in the data. Every read is checked against the end of the
+// data.
 class Bytes {
  public:
   Bytes(std::span<const char> content, std::string file)

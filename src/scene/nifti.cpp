@@ -182,8 +182,8 @@ std::uint64_t take_nifti_sizes(const NiftiHeader& header, Volume& volume) {
     if (i <= 3) {
       volume.size.at(i - 1) = static_cast<int>(size);
     } else {
-      // There are at most four such factors, each below 2³¹. An overflow is detected later, when
-      // the bytes are counted.
+      // The multiplication stops when the product exceeds 32 bits, so that it cannot overflow. A
+      // product of this size is rejected later, when the bytes are counted.
       further = further > std::numeric_limits<std::uint32_t>::max()
                     ? further
                     : further * static_cast<std::uint64_t>(size);

@@ -215,7 +215,7 @@ glm::dvec3 place_in_plume(core::Random& random, const Slab& slab, double height)
 void plume(Maker& maker) {
   static constexpr double in_slab = 0.6;
   static constexpr double height = 25;
-  static constexpr double clustered = 0.1;  // the probability that a draw starts a cluster
+  static constexpr double clustered = 0.1;  // probability that a position gets a cluster
   static constexpr std::uint64_t largest_cluster = 32;
   const Slab slab;
   maker.colour_along(1, {{-10, -slab.depth, -10}, {10, height, 10}});

@@ -29,8 +29,9 @@ enum class ColourKind : std::uint8_t {
 struct ParticleSet {
   std::string name;  // the `data` factor: a file name or generate:NAME:COUNT
   std::vector<std::array<float, 4>> spheres;  // centre x, y, z and radius in world units
-  std::vector<std::uint32_t> ids;  // 0-based index in the file, which counts dropped particles;
-                                   // ascending unless the set was permuted
+  // 0-based indices in the file, where dropped particles also count. They are in ascending order
+  // unless the set was permuted.
+  std::vector<std::uint32_t> ids;
   ColourKind colour = ColourKind::rgba8;
   // Only the array that `colour` names is filled. Colours are not premultiplied. Alpha is not used,
   // because spheres are opaque.

@@ -60,8 +60,8 @@ struct VolumeScene {
   [[nodiscard]] Box box() const;
   [[nodiscard]] double smallest_spacing() const;
   [[nodiscard]] double step_world() const { return step_voxels * smallest_spacing(); }
-  // The number of parts into which Quadrature::cells splits each segment of the ray between two
-  // planes.
+  // Returns the number of parts into which Quadrature::cells splits each segment of the ray between
+  // two planes.
   [[nodiscard]] int parts_of_cell() const;
 };
 

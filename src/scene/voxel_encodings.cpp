@@ -204,7 +204,7 @@ class TextReader {
   }
 
   bool next_value() {
-    constexpr std::size_t longest = 400;  // characters of a number in any notation
+    constexpr std::size_t longest = 400;  // maximum length of a number
     std::string word;
     auto c = letters_.peek();
     for (; c && separates(*c); c = letters_.peek()) letters_.take();

@@ -84,8 +84,8 @@ class Session {
   // Requests frames from the devices if the configuration has changed, and collects finished frames
   // and reference images. Returns whether anything visible has changed.
   bool update(Clock::time_point now);
-  // Returns the time at which the camera counts as resting, so that update() must be called even if
-  // there was no input. Returns nullopt if the camera does not move.
+  // Returns the time at which the camera counts as resting. At that time, update() must be called
+  // even if there was no input. Returns nullopt if the camera does not move.
   [[nodiscard]] std::optional<Clock::time_point> next_update() const;
   // Returns whether all columns show the current configuration, and the error of each image has
   // been computed.

@@ -37,14 +37,14 @@ struct Layout {
   [[nodiscard]] static std::string timings(const record::Device& device) {
     return "timings/" + device.key_hash() + ".json";
   }
-  // The key of the data's content hash in an entry of images.json. There is one key for each voxel
-  // format, because the hash depends on the format and devices prefer different formats.
+  // Returns the key of the data's content hash in an entry of images.json. There is one key for
+  // each voxel format, because the hash depends on the format and devices prefer different formats.
   [[nodiscard]] static std::string data_key(const record::Record& record) {
     const auto voxel = record.factors.find("voxel");
     return voxel == record.factors.end() ? "data" : "data_" + voxel->second;
   }
-  // The temporary folder to which `accept` writes before it replaces `folder`. It remains only if
-  // `accept` was killed.
+  // Returns the temporary folder to which `accept` writes before it replaces `folder`. It remains
+  // only if `accept` was killed.
   [[nodiscard]] static std::filesystem::path aside(const std::filesystem::path& folder) {
     return folder.parent_path() / ("." + folder.filename().string() + ".accepting");
   }

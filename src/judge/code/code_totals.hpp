@@ -32,7 +32,7 @@ class CodeTotals {
   // left out.
   void add(const std::string& configuration, const record::Code& before, const record::Code& now);
 
-  // The keys are the names that Mesa developers use.
+  // Returns the totals. The keys are the names that Mesa developers use.
   [[nodiscard]] const std::map<std::string, CodeTotal>& totals() const { return totals_; }
   [[nodiscard]] std::size_t configurations() const { return configurations_; }
   [[nodiscard]] std::size_t changed() const { return changed_; }

@@ -50,7 +50,7 @@ struct OffTheLine {
   // configurations, as a natural logarithm.
   double effect = 0;
   double error = 0;  // standard error of the effect
-  double q = 1;      // expected share of false findings among all that are at least as significant
+  double q = 1;      // expected share of false findings among findings at least as significant
 };
 
 // Finds the levels and the configurations that are off the line. Call this only for a pair whose

@@ -26,7 +26,7 @@ struct Range {
       families.emplace(record::family_of(device), value);
     }
   }
-  // The value in the range that is nearest to `value`.
+  // Returns the number in [least, most] that is nearest to `value`.
   [[nodiscard]] std::uint64_t nearest(std::uint64_t value) const {
     return std::clamp(value, least, most);
   }

@@ -17,23 +17,23 @@ struct RunView {
   const GateRequest& request;
   record::Run run;
   std::set<Check> checks;
-  std::vector<record::Record> records;               // the records of the requested devices
-  std::map<std::string, record::Device> devices;     // by id
-  std::vector<const record::Record*> measured;       // pointers into `records`
-  std::vector<const record::Record*> of_other_data;  // measured, but the data differ from the
-                                                     // accepted data or have changed
+  std::vector<record::Record> records;            // the records of the requested devices
+  std::map<std::string, record::Device> devices;  // by id
+  std::vector<const record::Record*> measured;    // pointers into `records`
+  // Measured records whose data differ from the accepted data or have changed since.
+  std::vector<const record::Record*> of_other_data;
 
   [[nodiscard]] const record::Device& device(const record::Record& record) const {
     return devices.at(record.device);
   }
   // Returns whether this version of the device's driver was accepted.
   [[nodiscard]] bool knows_driver(const record::Device& device) const;
-  // The test id of findings that belong to no device.
+  // Returns the test id of findings that belong to no device.
   [[nodiscard]] std::string plan_test(Check check) const;
-  // The plan as a command-line argument.
+  // Returns the plan as a command-line argument.
   [[nodiscard]] std::string argument() const;
-  // The date that decides whether a waiver has expired: GateRequest::today or the day of the run,
-  // whichever is later, so that setting the clock back does not revive an expired waiver.
+  // Returns the date that decides whether a waiver has expired: GateRequest::today or the day of
+  // the run, whichever is later, so that setting the clock back does not revive an expired waiver.
   [[nodiscard]] std::string today() const;
   // Returns advice with the `triptych accept` command that creates or updates the baselines.
   [[nodiscard]] Advised accept(Advice advice = Advice::accept) const;

@@ -75,7 +75,7 @@ class Suite {
   // if the suite has no data.
   [[nodiscard]] virtual std::vector<scene::GeneratorInfo> generators() const { return {}; }
 
-  // The plans that come with the suite: their short names, such as "quick", and their YAML.
+  // Return the plans that come with the suite: their short names, such as "quick", and their YAML.
   [[nodiscard]] virtual std::vector<std::string_view> plan_names() const = 0;
   [[nodiscard]] virtual std::string_view plan_text(std::string_view plan) const = 0;
 

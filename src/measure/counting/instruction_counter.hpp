@@ -23,8 +23,8 @@ class InstructionCounter {
 
   [[nodiscard]] Snapshot now() const;
 
-  // The names are those of record::Record::cost: "device_code", "driver", "libc", "program",
-  // "allocations", "misses".
+  // Returns the difference between the snapshots. The names are those of record::Record::cost:
+  // "device_code", "driver", "libc", "program", "allocations", "misses".
   [[nodiscard]] static record::Counts between(const Snapshot& before, const Snapshot& after);
 
   // Runs `act`, stores the counts in `taken` and returns the result of `act`.

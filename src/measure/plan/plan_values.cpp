@@ -15,7 +15,8 @@
 namespace triptych::measure {
 namespace {
 
-// The Levenshtein distance: insertions, deletions and replacements of single characters.
+// Returns the Levenshtein distance: the number of insertions, deletions and replacements of single
+// characters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

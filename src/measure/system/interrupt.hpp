@@ -36,7 +36,7 @@ class InterruptGuard {
   InterruptGuard(const InterruptGuard&) = delete;
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
-  // The descriptor is readable if a signal has arrived.
+  // Returns a descriptor that is readable if a signal has arrived.
   [[nodiscard]] int fd() const noexcept { return signals_.get(); }
   // Returns SIGINT or SIGTERM if it has arrived; ignores SIGPIPE. Once a signal has arrived, all
   // further calls on all threads return it.

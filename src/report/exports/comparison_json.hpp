@@ -16,7 +16,8 @@ namespace triptych::report {
 // "side", "numbers", "facts", "changes", "a" and "b" (observations), "worths", "code", "total",
 // "injected"}.
 [[nodiscard]] core::Json to_json(const comparison::Difference& difference);
-// The members of a difference, and {"configuration", "configurations", "ratio_low", "ratio_high"}.
+// The members of a Difference and, in addition, {"configuration", "configurations", "ratio_low",
+// "ratio_high"}.
 [[nodiscard]] core::Json to_json(const comparison::DifferenceGroup& group);
 // {"cause", "text"} and, depending on the cause, {"side", "outcome", "reason", "suspected",
 // "numbers"}.
