@@ -57,7 +57,7 @@ struct AccuracyScene {
   std::optional<FrontArea> area;  // set only if any configuration was timed
 };
 
-// Combines a record with its errors and with the median of its timings by `clock`.
+// Combines a record, the errors of its image, and the median of its times on the clock `clock`.
 [[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
                                          std::string_view clock);
 

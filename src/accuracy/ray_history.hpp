@@ -1,7 +1,7 @@
 #pragma once
 // Compares a device's results along one ray of a volume with the results of the reference renderer,
-// sample by sample, and within a sample in the order of the computation. The first difference
-// therefore identifies the first operation whose result is outside its bound.
+// sample by sample and, within each sample, operation by operation. The first difference therefore
+// identifies the first operation whose result is outside its bound.
 
 #include <array>
 #include <cstddef>

@@ -18,7 +18,7 @@ struct SideBySide {
   struct Cell {
     double value = 0;  // instructions or nanoseconds per frame
     double ratio = 1;  // relative to the best device of the row
-    // Counters that explain the difference, as ratios to those of the best device.
+    // Counters that explain the difference, as ratios to the counters of the best device.
     std::map<std::string, double> work = {};
   };
   struct Row {

@@ -48,7 +48,7 @@ class JsonFile {
   // is not JSON, or if an object has the same key twice, which can be the result of a careless
   // merge.
   [[nodiscard]] static std::optional<JsonFile> read(const std::filesystem::path& file);
-  // Uses `text` as the content of the file. The file need not exist yet.
+  // Uses `text` as the content of the file, which need not exist.
   JsonFile(std::filesystem::path file, std::string text);
 
   [[nodiscard]] JsonNode root() const { return {*this, value_, {}}; }

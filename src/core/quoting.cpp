@@ -15,7 +15,8 @@ bool means_nothing(char c) {
   return letter || std::string_view("_@%+=:,./-").find(c) != std::string_view::npos;
 }
 
-// A word that begins with '=' needs quotes, because zsh replaces it with the path of a program.
+// A word that begins with '=' needs quotes, because zsh replaces such a word with the path of a
+// program.
 bool needs_no_quotes(std::string_view word) {
   return !word.empty() && word.front() != '=' && std::ranges::all_of(word, means_nothing);
 }

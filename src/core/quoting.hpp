@@ -1,6 +1,6 @@
 #pragma once
-// Makes text of unknown origin safe to use in shell commands that users paste, and to print on
-// terminals.
+// Makes text from unknown sources safe to use in shell commands that users paste, and safe to print
+// on terminals.
 
 #include <cstddef>
 #include <map>

@@ -1,5 +1,6 @@
 #pragma once
-// Functions for text of unknown origin, such as names in files and messages from drivers and users.
+// Functions for text from unknown sources, such as names in files and messages from drivers and
+// users.
 
 #include <cstddef>
 #include <string>

@@ -185,7 +185,7 @@ Candidate s_estimate(Points x, Points y) {
       for (std::size_t j = i + 1; j < n; ++j) search.try_pair(i, j);
     }
   } else {
-    core::Random random(n);  // a fixed seed, so that the same points always give the same pairs
+    core::Random random(n);  // a fixed seed, so that the same points always yield the same pairs
     for (std::size_t k = 0; k < most_pairs; ++k) {
       search.try_pair(random.bits() % n, random.bits() % n);
     }

@@ -11,7 +11,7 @@ namespace triptych::record {
 
 enum class DeviceFaultKind : std::uint8_t {
   clock_reads_zero,      // the device's timer reads 0 for work that takes time
-  clock_rate_wrong,      // a timer tick does not last as long as the device reports
+  clock_rate_wrong,      // the tick period of the device's timer differs from the reported period
   clock_not_written,     // the driver never wrote a time stamp
   statistics_all_zero,   // all pipeline statistics are 0, although the frame drew something
   statistics_crash,      // the driver crashes when it reads pipeline statistics

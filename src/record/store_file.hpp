@@ -27,7 +27,7 @@ namespace triptych::record {
 // choose the name of this file.
 [[nodiscard]] SQLite::Database open_new_store_file(const std::filesystem::path& file);
 
-// Throws IoError if the name no longer belongs to the file that was opened, or if the log with the
+// Throws IoError if the path no longer refers to the file that was opened, or if the log with the
 // latest changes is gone.
 void require_file(const std::filesystem::path& file, SQLite::Database& database);
 

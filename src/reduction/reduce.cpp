@@ -20,8 +20,8 @@ bool is_taken(const measure::Suite& suite, const measure::Factor& factor,
   }
 }
 
-// Returns the factors, beginning with those that make a frame smaller, because all later frames are
-// then drawn faster.
+// Returns the factors, beginning with the factors that reduce the size of a frame, because all
+// later frames are then drawn faster.
 std::vector<const measure::Factor*> in_order(const measure::Suite& suite) {
   std::vector<const measure::Factor*> factors;
   for (const measure::Factor& each : suite.factors()) factors.push_back(&each);

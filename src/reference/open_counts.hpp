@@ -21,8 +21,9 @@ struct BrickPlanes {
 // Returns the allowed differences by counter name (technique::raycast_counters). For each ray, the
 // following may differ between devices:
 //
-//   - all counts, if the ray may hit or miss the volume;
-//   - samples beyond the shortest chord, and samples after the first sample that may end the ray;
+//   - all counts, if rounding decides whether the ray hits the volume;
+//   - samples beyond the shortest possible chord, and samples after the first sample at which a
+//     device may end the ray;
 //   - whether a sample has opacity, if the smallest opacity that it may have on a device is zero.
 //     With preintegrated steps, an opacity below 2⁻²⁴ may become zero, because 1 − 2⁻ᶻ may be
 //     computed as a difference;

@@ -176,8 +176,8 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   front_ *= std::exp(-sure / widening_);
 }
 
-// Adds the error of one cell, or of a part of a cell at an end of the path, if it is deeper than a
-// chunk may be.
+// Adds the error of one cell, or of a part of a cell at an end of the path, if its depth exceeds
+// the limit for chunks.
 void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
   const double share = piece.length + 2.0 * path_.error / span_;
   const double extinction = mean_extinction(std::min(piece.a[3] + alpha_error_, 1.0),

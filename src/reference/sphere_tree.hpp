@@ -36,8 +36,8 @@ class SphereTree {
   [[nodiscard]] double farthest() const { return farthest_; }
   [[nodiscard]] const Sphere& sphere(std::uint32_t place) const { return spheres_[place]; }
 
-  // Calls visit(place) for every sphere whose grown box the ray hits at some t with
-  // 0 ≤ t ≤ limit(), and possibly for further spheres, in the order of the distances of the boxes.
+  // Calls visit(place) for every sphere whose grown box the ray hits at some t with 0 ≤ t ≤
+  // limit(), and possibly for further spheres, in the order of the distances to their boxes.
   // limit() may decrease between calls. `direction` is a unit vector.
   template <typename Limit, typename Visit>
   void walk(const glm::dvec3& direction, const Limit& limit, const Visit& visit) const {

@@ -22,8 +22,8 @@ void add_pair(StressMaker& maker) {
 
 }  // namespace
 
-// All lengths are multiplied by the same power of two. This commutes with rounding, so the image
-// must not change.
+// All lengths are multiplied by the same power of two. Such a multiplication commutes with
+// rounding, so the image must not change.
 StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
   const double scale = variant == "small" ? 0x1.0p-20 : variant == "large" ? 0x1.0p20 : 1.0;
   StressMaker maker(colour, looking(scale * 5.0 * oblique(), {0, 0, 0}, 40), stress_side,
@@ -62,7 +62,7 @@ StressScene stress_inside(std::string_view variant, scene::ColourKind colour) {
   StressMaker maker(colour, looking(eye, eye + glm::dvec3{0.7, 0.2, -2.1}, 90), stress_side,
                     stress_side);
   add_pair(maker);
-  maker.add({0.5, 0.15, -0.6}, 0.15);  // also inside, in front of the shell
+  maker.add({0.5, 0.15, -0.6}, 0.15);  // also inside the large sphere, in front of its shell
   maker.add({0.9, 0.3, -2.5}, 0.8);    // outside, hidden by the shell
   return maker.take();
 }

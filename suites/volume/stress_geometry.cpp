@@ -107,7 +107,8 @@ StressScene stress_octant(std::string_view variant) {
   return scene;
 }
 
-// The image looks the same from every distance, because the focal length grows with the distance.
+// The scene looks the same from every distance, because the focal length is proportional to the
+// distance.
 StressScene stress_far(std::string_view variant) {
   double distance = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), distance);

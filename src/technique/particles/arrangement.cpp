@@ -160,7 +160,7 @@ class Runs {
   std::vector<std::uint32_t> front_to_back_;
 };
 
-// Fills `out` with value(k) for k = first, first + 1, and so on. Uses memcpy, because `out` may be
+// Fills `out` with value(first), value(first + 1), and so on. Uses memcpy, because `out` may be
 // unaligned.
 template <typename Value>
 void write(std::size_t first, std::span<std::byte> out, const Value& value) {

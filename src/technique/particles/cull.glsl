@@ -6,7 +6,7 @@
 #define TRI_OCCLUSION 0
 #endif
 
-// Returns whether this draw includes the cell, and updates the counters.
+// Returns whether the current draw includes the cell, and updates the counters.
 bool is_drawn(uint index, Cell cell) {
   bool drawn = !outside_view(cell);
   bool left_out = !drawn;

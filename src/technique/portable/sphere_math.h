@@ -114,7 +114,7 @@ TRI_FN float tri_depth(float near, float distance) {
 // compute the same bounds.
 TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   const float huge = 3.0e38f;
-  float side = a < 0.0f ? 0.0f - a : a;  // by symmetry, the sphere may be assumed at a ≥ 0
+  float side = a < 0.0f ? 0.0f - a : a;  // by symmetry, a ≥ 0 may be assumed for the centre of the sphere
   TRI_PRECISE float k2 = side * side + z * z - r * r;
   TRI_PRECISE float low = 0.0f - huge;
   TRI_PRECISE float high = huge;

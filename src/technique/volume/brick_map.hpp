@@ -14,7 +14,8 @@ namespace triptych::technique {
 // it is one word that is never read.
 [[nodiscard]] std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip,
                                                   double adapt = 0);
-// Creates the same map from existing ranges for brick_layout(scene, skip, adapt).
+// Creates the same map from ranges that have already been computed for brick_layout(scene, skip,
+// adapt).
 [[nodiscard]] std::vector<std::int32_t> brick_map(const BrickRanges& ranges,
                                                   const scene::VolumeScene& scene, Skip skip,
                                                   double adapt);

@@ -16,7 +16,8 @@ int cells_of(const scene::VolumeScene& scene) {
   return scene.grid->size[2] + 1;
 }
 
-// Returns the number of cells that a part has on each side in addition to the cells of its samples.
+// Returns the number of additional cells on each side of a part, beyond the cells that contain its
+// samples.
 int overlap(const scene::VolumeScene& scene) {
   constexpr double widened_and_rounded = 2;
   double cells = widened_and_rounded + (scene.shading.enabled ? 1 : 0);

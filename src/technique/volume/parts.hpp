@@ -2,8 +2,8 @@
 // Draws a volume that does not fit into device memory. The volume is divided into parts, of which
 // the device stores only one at a time. The parts are slabs along z. They are drawn one after the
 // other, outwards from the eye, so that each ray passes through them from front to back. Rays,
-// samples and bricks are those of the whole volume; only the layer indices in fetches are relative
-// to the part. The image is therefore bit-identical to that of the whole volume.
+// samples and bricks are the same as for the whole volume; only the layer indices in fetches are
+// relative to the part. The image is therefore bit-identical to that of the whole volume.
 
 #include <array>
 #include <cstddef>

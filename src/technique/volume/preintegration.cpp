@@ -44,8 +44,8 @@ double extinction(double alpha) {
 // cell unless alpha reaches 1. The cell is therefore cut into pieces whose lengths halve towards an
 // end at which alpha is 1, and each piece is integrated with the five-point Gauss rule. The optical
 // depth in front of a point is the sum of the depths of the previous pieces and the integral of a
-// parabola, which passes through the extinction at both ends and in the middle of the point's own
-// piece.
+// parabola, which interpolates the extinction at both ends and in the middle of the piece that
+// contains the point.
 class CellIntegral {
  public:
   CellIntegral(const Entry& a, const Entry& b) : a_(a), b_(b) {}

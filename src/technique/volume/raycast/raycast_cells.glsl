@@ -31,9 +31,9 @@ vec3 entries(Way way, ivec3 cell) { return crossings(way, cell + 1 - way.forward
 vec3 exits(Way way, ivec3 cell) { return crossings(way, cell + way.forward); }
 float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
 
-// Returns the cell that the ray enters at the nearest of the planes, which it crosses at the times `at`. Along the
-// other axes, the index is that of the cell that contains the ray at this time. It is determined from the same times
-// that a walk would compare.
+// Returns the cell that the ray enters at the nearest of the planes, which it crosses at the times `at`. Along the other
+// axes, the index is that of the cell that contains the ray at this time. This index is determined from the same times that
+// a walk from cell to cell would compare.
 ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
   float t = least(at);
   ivec3 direction = 2 * way.forward - 1;
