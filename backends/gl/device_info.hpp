@@ -13,8 +13,8 @@ struct Api;
 // no suffix.
 [[nodiscard]] record::Device device_info(const Api& gl, std::string_view suffix);
 
-// Returns the short driver name for device ids, from the vendor and renderer strings. A layered
-// driver (zink, virgl, ANGLE) has its own name, not that of the driver below it.
+// Returns the short driver name for device ids, from the vendor and renderer strings. For a layered
+// driver (zink, virgl, ANGLE), returns its own name instead of the name of the driver below it.
 [[nodiscard]] std::string driver_name(const std::string& vendor, const std::string& renderer);
 // Returns the version in one line. For a layered driver, the line ends with the driver below it.
 [[nodiscard]] std::string driver_version(const std::string& version, const std::string& renderer);

@@ -8,8 +8,8 @@
 namespace triptych::gl_backend {
 
 // Returns the reason why these particles and this image exceed a limit that applies to every
-// particle technique; nullopt if they do not. `storage`: the particles are read from storage
-// blocks.
+// particle technique; nullopt if they do not. `storage` is true if the particles are read from
+// storage blocks.
 [[nodiscard]] std::optional<std::string> particles_unsupported(const Api& gl,
                                                                const measure::ParticleWork& work,
                                                                bool storage);

@@ -43,7 +43,7 @@ class TileBuffers {
   // Begins a round with no large spheres, no entries, and no tiles to draw into.
   void start_round(const Api& gl) const;
 
-  // groups_for_tiles() returns the number of work groups with one group per 64 tiles.
+  // groups_for_tiles() returns the number of work groups if each work group processes 64 tiles.
   // dispatch_listed() dispatches one work group per tile that the round draws into.
   [[nodiscard]] GLuint groups_for_tiles() const;
   void dispatch_listed(const Api& gl) const;

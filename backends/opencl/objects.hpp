@@ -103,7 +103,8 @@ struct Session {
   measure::MemoryLedger held = {};  // memory of the objects that make_buffer and make_image created
 };
 
-// Both functions record the new object in the session's ledger. They throw core::ApiError.
+// make_buffer() and make_image() record the new object in the session's ledger. They throw
+// core::ApiError.
 [[nodiscard]] cl::Buffer make_buffer(const Session& session, cl_mem_flags flags, std::size_t bytes,
                                      core::CodePlace place = core::CodePlace::current());
 [[nodiscard]] cl::Image3D make_image(const Session& session, const cl::ImageFormat& format,

@@ -22,7 +22,7 @@ enum class Sprite : std::uint8_t {
   evaluated_quad,  // vertices from the counterparts of tessellation stages
   point
 };
-// Returns the number of words that these separate passes store per particle: the patch and its
+// Returns the number of words per particle that the separate vertex passes store: the patch and its
 // vertices, or a point.
 [[nodiscard]] constexpr std::size_t stored_words(Sprite sprite) {
   if (sprite == Sprite::point) return 8;

@@ -110,8 +110,8 @@ void ParticleStages::poison(const Pass& pass) const {
   for (const cl::Buffer* each : {&image_, &ids_, &pass.depths, &camera_}) {
     fill(*each, measure::poison_word);
   }
-  // Kernels use these numbers as counts and indices, so they are set to 0 instead of the poison
-  // value. The kernels then draw nothing.
+  // Kernels use the contents of these buffers as counts and indices, so they are set to 0 instead
+  // of the poison value. The kernels then draw nothing.
   for (const cl::Buffer* each : {&pass.list, &pass.begins, &pass.totals, &rectangles_}) {
     fill(*each, 0);
   }

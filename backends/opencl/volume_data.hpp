@@ -24,7 +24,7 @@ namespace triptych::opencl_backend {
 // + 1 of the buffer.
 [[nodiscard]] technique::Layers bordered_layers(const scene::VoxelGrid& grid);
 // Writes `cells` cells, beginning with cell `first` of the volume, to the beginning of a buffer
-// with this layout. Throws cl::Error.
+// with the layout of bordered_layers(). Throws cl::Error.
 void write_layers(const Session& session, const cl::Buffer& buffer, const scene::VoxelGrid& grid,
                   int first, int cells);
 

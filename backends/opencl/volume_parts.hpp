@@ -30,7 +30,7 @@ class VolumeParts {
               std::span<const technique::Part> parts, std::span<const std::int32_t> map,
               const cl::Buffer& voxels, const cl::Buffer& parameters);
 
-  // Runs the launch once per part, like opencl_backend::run with one launch. Fills `events` with
+  // Runs the launch once per part, and waits until all commands have finished. Fills `events` with
   // the event of the frame's first command and the events of the launches.
   void run(const Launch& launch, std::vector<cl::Event>& events) const;
 

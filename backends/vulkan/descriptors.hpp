@@ -42,10 +42,10 @@ void bind_buffer(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
 // Binds a view of a buffer that was created for uniform texels.
 void bind_texels(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                  const vk::raii::BufferView& view);
-// The image must be in the layout eGeneral when it is used.
+// The image must be in the layout eGeneral whenever shaders use it.
 void bind_storage_image(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding,
                         const Image& image);
-// The image must be in the layout eShaderReadOnlyOptimal when it is used.
+// The image must be in the layout eShaderReadOnlyOptimal whenever shaders use it.
 void bind_texture(const Gpu& gpu, vk::DescriptorSet set, std::uint32_t binding, const Image& image,
                   const vk::raii::Sampler& sampler);
 

@@ -137,7 +137,7 @@ std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   });
 }
 
-// Preparing builds all pipelines of the timed frame. Nothing is drawn with them.
+// Preparing the work builds all pipelines of the timed frame, but draws nothing.
 measure::Compiled Device::compile(const measure::Work& work) {
   if (!gpu_.reports_code) {
     throw core::NotSupported(

@@ -56,9 +56,9 @@ struct Gpu {
   }
 };
 
-// Opens a device. `labelled`: the instance has VK_EXT_debug_utils, and names were requested.
-// `executes` is false for a device that only compiles. Throws core::NotSupported if the device has
-// no queue for compute work, and vk::SystemError.
+// Opens a device. `labelled` is true if the instance has VK_EXT_debug_utils and names were
+// requested. `executes` is false for a device that only compiles. Throws core::NotSupported if the
+// device has no queue for compute work, and vk::SystemError.
 [[nodiscard]] Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled = false,
                            bool executes = true);
 

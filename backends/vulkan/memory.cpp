@@ -57,7 +57,7 @@ vk::raii::DeviceMemory allocate(const Gpu& gpu, const vk::MemoryRequirements& ne
                                                .allocationSize = needed.size,
                                                .memoryTypeIndex = type}};
   } catch (const vk::SystemError& error) {
-    // Larger allocations may succeed, but devices may refuse them.
+    // An allocation above this limit may succeed, but devices may also reject it.
     if (needed.size > gpu.most_allocated) {
       throw core::NotSupported(fmt::format(
           "the device rejected an allocation of {} bytes; maxMemoryAllocationSize is {}",

@@ -26,7 +26,8 @@ class ParticleTarget {
 
   [[nodiscard]] vk::Extent3D extent() const noexcept { return colour_.extent(); }
   [[nodiscard]] const Image& depth() const noexcept { return depth_; }
-  // Pipelines that were created for one of the two passes can also be used in the other.
+  // Returns one of the two passes. A pipeline that was created for it can also be used in the other
+  // pass.
   [[nodiscard]] const vk::raii::RenderPass& pass() const noexcept { return clearing_; }
 
   // Begins a pass, which leaves all three attachments ready to be copied from. A continued pass

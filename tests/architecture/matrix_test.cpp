@@ -62,7 +62,7 @@ TEST(Matrix, EveryCellIsImplementedOrExplained) {
   }
 }
 
-// Returns the contents of all plans of the suite that contain this check.
+// Returns the concatenated contents of all plans of the suite that include this check.
 std::string judged_plans(const std::string& suite, const std::string& check) {
   const std::filesystem::path plans = source_folder / "suites" / suite / "plans";
   std::string all;

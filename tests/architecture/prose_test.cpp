@@ -7,7 +7,7 @@
 namespace triptych::architecture {
 namespace {
 
-// Matches code that searches in a message, or compares a message with a string. Only the folder
+// Matches code that searches a message, or compares a message with a string. Only the folder
 // `words` creates messages, and `core` quotes them.
 const std::regex reads_prose(
     R"(\b(detail|last_words|message|what\(\)|text_of\([^()]*\)|headline\([^()]*\)|advice\([^()]*\)))"

@@ -1,5 +1,5 @@
-// Tests that the records of a run are in the file that the user names, or that the run reports that
-// it cannot store them.
+// Tests that a run either stores its records in the file that the user names, or reports that it
+// cannot store them.
 
 #include "record/store.hpp"
 

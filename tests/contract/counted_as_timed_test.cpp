@@ -96,9 +96,9 @@ TEST(CountedAsTimed, SamplesOnBrickFacesAreCountedAsDrawn) {
   });
 }
 
-// Derives the number of steps from the image of a volume with one opacity per voxel length, drawn
-// with early termination. The transmittance results from a number of whole steps and, if the ray
-// did not terminate early, from a partial step.
+// Derives the number of steps from the image of a volume with a constant opacity per voxel length,
+// drawn with early termination. The transmittance of a ray results from a number of whole steps
+// and, if the ray did not terminate early, from a partial step.
 struct Tally {
   std::uint64_t rays_hit = 0;
   std::uint64_t terminated = 0;
@@ -193,8 +193,8 @@ TEST(CountedAsTimed, BothBuildsDrawTheSameVolumeImage) {
   });
 }
 
-// If a shader violates its declaration of conservative depth, the image shows what was rejected
-// early. The counting build has to reject the same fragments.
+// If a shader violates its declaration of conservative depth, the image reveals which fragments
+// were rejected early. The counting build has to reject the same fragments.
 TEST(CountedAsTimed, BothBuildsRejectTheSameFragmentsEarly) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();

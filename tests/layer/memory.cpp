@@ -10,7 +10,7 @@
 namespace triptych::layer {
 namespace {
 
-// The memory types that Triptych sees. The driver has only type 0 for both.
+// The memory types that Triptych sees. In the driver, type 0 serves as both.
 enum Type : std::uint32_t { on_device, on_host, types };
 
 std::mutex mutex;

@@ -110,8 +110,9 @@ TEST_F(GlShims, CommandsThatAreExecutedOnlyOnceAreFound) {
   for (const char* plan : {"volume", "particles"}) {
     const test::Result drawn = gl("once_only", plan);
     if (lacks_device(drawn)) GTEST_SKIP() << "needs llvmpipe";
-    // With occlusion culling, some frames are drawn before the first measured frame. The measured
-    // frames therefore show only the cleared background, which is a wrong image.
+    // With this fault, a program draws only when it is used for the first time. With occlusion
+    // culling, frames are drawn before the first measured frame, so the measured frame shows only
+    // the cleared background. That also counts as a wrong image.
     EXPECT_TRUE(every_image_is_wrong(plan)) << plan << '\n' << drawn.output;
   }
 }

@@ -139,7 +139,8 @@ scene::ParticleScene large_before_small() {
   return seen_from(spheres, {0, 0, 0}, 60);
 }
 
-// Returns the number of work groups of 64 that a frame has in addition to those that resolve tiles.
+// Returns the number of work groups of 64 invocations that a frame has in addition to those that
+// resolve tiles.
 std::uint64_t groups_of_other_passes(const scene::ParticleScene& scene,
                                      const technique::TileRounds& rounds) {
   constexpr std::uint64_t group = 64;

@@ -188,7 +188,7 @@ TEST(GlParticles, OptionsWithoutEffectOnTheImageAreBitIdentical) {
   });
 }
 
-// A wall hides most particles. Cells must be culled, and not a bit of the image may change.
+// A wall hides most particles. Cells must be culled, but the image must remain bit-identical.
 TEST(GlParticles, CullingHiddenCellsIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene scene = generated("generate:uniform:30000");

@@ -82,7 +82,7 @@ std::vector<measure::Work> particle_works() {
   return works;
 }
 
-// Returns the sources that a device compiles for these works, both for timing and for counting.
+// Returns all sources that the device compiles for `works`, both for timing and for counting.
 Sources sources_of(const Candidate& candidate, const std::vector<measure::Work>& works) {
   std::unique_ptr<Context> context = candidate.open(false);
   Context& kept = *context;

@@ -173,8 +173,8 @@ TEST(VulkanFrames, ExtraWorkIsDone) {
     if (device.info().limits.at("pipelineStatisticsQuery") == "no") GTEST_SKIP();
     const auto prepared =
         device.prepare(make_work("raycast", make_scene(), {.extra_work_stride = 2}));
-    // Three tiles of 16 columns cover the image, and two of them are drawn again in every second
-    // frame.
+    // In each row of tiles, three tiles of 16 columns cover the image, and two of these tiles are
+    // drawn again.
     EXPECT_EQ(prepared->frame(Purpose::statistics).counts.at("compute_invocations"),
               2U * (3U + 2U) * 4U * 64U);
     const auto drawn =

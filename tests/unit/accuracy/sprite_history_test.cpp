@@ -42,7 +42,7 @@ TEST(SpriteHistory, AllowsAnotherParticleInUncertainPixels) {
   EXPECT_EQ(compare(edge, shown(8, 5, 1.1)), SurfaceDifference::colour);
 }
 
-// The pixel is wrong if and only if particles 3 and 61, of 100 particles, are drawn together.
+// Of 100 particles, the pixel is wrong if and only if particles 3 and 61 are drawn together.
 TEST(SpriteHistory, FindsTheSmallestSetOfParticles) {
   Particles all(100);
   for (std::uint32_t i = 0; i < 100; ++i) all[i] = i;

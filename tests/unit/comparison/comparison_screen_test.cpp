@@ -62,7 +62,7 @@ TEST(ComparisonScreen, ShowsTheVariablesOfASide) {
               HasSubstr("WIDTH=128\nb: the same, but WIDTH=256\n"));
 }
 
-// The only configuration is supported by neither side.
+// Neither side supports the only configuration.
 TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
   ComparisonResult result;
   Compared skipped;

@@ -189,7 +189,7 @@ TEST_F(AsBegunTest, AFailedListingCannotBeJudgedAndIsShown) {
   // This run requested no Vulkan devices.
   EXPECT_EQ(gate("others").exit_code(), core::ExitCode::pass);
   // If a run names a device in full and finds it, no device can be missing. If it names devices by
-  // a glob, some may be.
+  // a glob, some devices may be missing.
   for (const bool whole : {true, false}) {
     const std::string run = whole ? "named" : "glob";
     add_begun(run, {.asked = {whole ? "vulkan:lavapipe" : "vulkan:*"},

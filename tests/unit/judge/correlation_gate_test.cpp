@@ -70,8 +70,8 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsReportedFirst) {
   }
 }
 
-// The slowdown of 0.5 % of the frame occurs only in the driver. It exceeds the sum of PoCL's bound
-// and the other device's bound, so it is found.
+// The slowdown is 0.5 % of the frame's cost, and occurs only in the driver. It exceeds the sum of
+// PoCL's bound and the other device's bound, so it is found.
 TEST(AcceptedDevices, HalfAPercentInTheDriverIsFoundOnPocl) {
   CorrelationWorld world(3);
   world.add_device(lavapipe, true);
@@ -198,8 +198,8 @@ TEST(NewDevice, ThreePercentOfALevel) {
   EXPECT_LE(trials.wrong, 3);
 }
 
-// At 1 %, 5 false reports are expected in 500 trials. An earlier experiment had 14 false reports in
-// 1,500 trials.
+// If 1 % of the trials have a false report, 5 are expected in 500 trials. An earlier experiment had
+// 14 false reports in 1,500 trials.
 TEST(NewDevice, NothingInjected) {
   const Trials trials = new_devices({}, "none", "none", 0.02, 500);
   EXPECT_LE(trials.wrong, 10);

@@ -86,8 +86,8 @@ TEST_F(FastestTest, IsFoundWithOneClock) {
   EXPECT_THAT(text(), HasSubstr("raycast is the fastest, 1.000 ms (median 1.000, device clock)"));
 }
 
-// If instructions were counted, they decide instead of times, because the choice is then
-// repeatable.
+// If instructions were counted, the instruction counts decide instead of the times, because the
+// choice is then repeatable.
 TEST_F(FastestTest, HasTheFewestInstructionsIfTheyWereCounted) {
   add("raycast", {}).cost = {{"device_code", 5'000'000}, {"driver", 1'000'000}, {"libc", 9}};
   add("raycast_fragment", {}).cost = {{"device_code", 2'000'000}, {"driver", 2'000'000}};

@@ -55,7 +55,7 @@ TEST(ExtraWork, NoPixelIsDrawnTwiceAndTheShareIsAsAsked) {
   }
 }
 
-// A driver may statically assign half of the rows to each of two processors, so both halves need
+// A driver may statically assign half of the rows to each of two CPU cores, so both halves need
 // equal work.
 TEST(ExtraWork, IsDistributedOverBothHalves) {
   for (const int size : {192, 320, 512}) {

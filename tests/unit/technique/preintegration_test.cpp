@@ -45,7 +45,7 @@ Light integrate(const scene::TransferFunction& function, Wide from, Wide to, Wid
   return light;
 }
 
-// Computes the light of the same path from the table, as the kernels do.
+// Computes the light along a path of `length` voxels from the table, as the kernels do.
 Light by_table(const std::vector<std::array<float, 4>>& pairs, std::size_t from, std::size_t to,
                float length) {
   const auto* pair = &pairs[texels_per_pair * (256 * from + to)];

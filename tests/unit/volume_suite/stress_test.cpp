@@ -113,7 +113,8 @@ TEST(Stress, UnknownNamesAreRejectedWithTheKnownOnes) {
   }
 }
 
-// Flipping the image vertically, horizontally or both ways exceeds the bound by far.
+// A vertical flip, a horizontal flip and both flips together must each change the image by far more
+// than the bound.
 TEST(Stress, TheAsymmetricSceneRevealsEveryFlip) {
   const accuracy::TruthPair truth = truth_of("stress:asymmetric");
   EXPECT_GT(largest_ratio(truth, true, false), 100);
