@@ -108,7 +108,7 @@ void add_history_command(Commands& commands);
 void add_validate_command(Commands& commands);
 void add_features_command(Commands& commands);
 void add_export_command(Commands& commands);
-void add_test_commands(Commands& commands);      // called by CTest
-void add_document_commands(Commands& commands);  // called by the build
+void add_test_commands(Commands& commands);      // commands for CTest
+void add_document_commands(Commands& commands);  // commands for the build
 
 }  // namespace triptych::app

@@ -155,7 +155,8 @@ std::vector<record::Device> found_devices(const GateArguments& arguments, const 
                                           const JudgedPlan& judged) {
   if (arguments.measure) return registry.devices_and_compilers(arguments.devices).devices;
   std::vector<record::Device> found;
-  if (!std::filesystem::exists(arguments.store)) return found;  // reported as an error later
+  // A missing store is reported as an error later.
+  if (!std::filesystem::exists(arguments.store)) return found;
   const record::Store store(arguments.store, record::Store::Mode::read);
   const auto run = store.latest_run(judged.plan.name);
   if (!run) return found;

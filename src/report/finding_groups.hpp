@@ -15,9 +15,9 @@ namespace triptych::report {
 struct Blame {
   enum class Of : std::uint8_t {
     unknown,
-    driver,                 // at fault, because `devices` with the same API pass
-    driver_since_accepted,  // at fault, because `devices` with the same API passed when accepted
-    not_the_driver          // not at fault, because `devices` with other drivers also fail
+    driver,                 // the driver is at fault: `devices` with this API pass
+    driver_since_accepted,  // the driver is at fault: `devices` with this API passed when accepted
+    not_the_driver          // the driver is not at fault: `devices` with other drivers also fail
   };
   Of of = Of::unknown;
   std::vector<std::string> devices = {};

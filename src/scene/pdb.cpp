@@ -166,7 +166,7 @@ class PdbFrames {
   bool has_models_ = false;
   bool in_model_ = false;
   bool closed_ = false;    // whether the most recent frame has ended
-  bool ended_ = false;     // whether there was an END
+  bool ended_ = false;     // whether there was an END record
   bool is_entry_ = false;  // whether the file is an entry from the PDB
 };
 

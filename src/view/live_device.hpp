@@ -98,7 +98,7 @@ class LiveDevice {
   std::condition_variable wake_;
   std::optional<Wanted> wanted_;
   bool stop_ = false;
-  std::atomic<bool> gone_ = false;  // the worker has exited
+  std::atomic<bool> gone_ = false;  // whether the worker has exited
   State state_;
   std::thread thread_;  // the last member, because its code uses all other members
 };

@@ -159,10 +159,10 @@ class DeviceCodeCheck {
 
   const RunView& view_;
   const record::Device& device_;
-  const DriverCode* stored_;  // for this driver version; may be nullptr
+  const DriverCode* stored_;  // the stored code of this driver version; may be nullptr
   std::vector<const record::Record*> records_;
   std::vector<std::string> not_stored_;
-  std::vector<std::string> reassembled_;  // the disassembly changed, but not the statistics
+  std::vector<std::string> reassembled_;  // configurations with only a changed disassembly
 };
 
 }  // namespace

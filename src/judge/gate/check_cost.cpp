@@ -195,7 +195,7 @@ class DeviceCostCheck {
 
   const RunView& view_;
   const record::Device& device_;
-  const DriverCost* stored_;  // for this driver version; may be nullptr
+  const DriverCost* stored_;  // the stored cost of this driver version; may be nullptr
   std::vector<const record::Record*> records_;
   std::vector<std::string> not_stored_;
   std::vector<std::string> not_counted_;

@@ -159,7 +159,7 @@ class SceneJudge {
   ImageFindings& out_;
   std::string scene_;
   std::optional<core::Image> stored_;       // the accepted reference image, if it is stored
-  std::optional<ReferenceHash> reference_;  // its hash, if only the hash is stored
+  std::optional<ReferenceHash> reference_;  // the hash of that image, if only the hash is stored
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
   core::Image bound_;  // error bound of a particle scene; its ids are 0 where the id is certain

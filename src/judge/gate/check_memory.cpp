@@ -44,8 +44,8 @@ Finding judge(const record::Record& record, const record::Counts& stored) {
 struct Untold {
   bool accepted = false;          // whether memory is stored for some configuration of the device
   std::size_t told = 0;           // number of configurations for which the device reports memory
-  std::vector<std::string> lost;  // stored, but not reported now
-  std::vector<std::string> not_stored;  // reported, but not stored
+  std::vector<std::string> lost;  // configurations whose memory is stored, but not reported now
+  std::vector<std::string> not_stored;  // configurations whose memory is reported, but not stored
 };
 
 void tell(const RunView& view, const record::Device& device, const Untold& untold,

@@ -82,7 +82,7 @@ class DeviceTimes {
         finding_about(view_, device_, Check::timing, verdict, std::move(what), std::move(advice)));
   }
   static bool is_time(const std::vector<double>& times) {
-    const double middle = estimation::median(times);  // NaN if there are none
+    const double middle = estimation::median(times);  // NaN if there are no times
     return std::isfinite(middle) && middle > 0;
   }
 

@@ -23,7 +23,7 @@ struct CorrelationInput {
 struct ConfigurationCost {
   const record::Record* record = nullptr;  // nullptr: the device is not in the run
   FrameCost now;                           // the stored cost, if the device is not in the run
-  std::optional<FrameCost> stored = {};    // from the same driver version and the same emulator
+  std::optional<FrameCost> stored = {};    // from the same driver version and emulator as `now`
 };
 
 struct DeviceCost {

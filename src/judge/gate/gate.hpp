@@ -36,7 +36,7 @@ struct GateResult {
   std::map<std::string, std::map<std::string, std::string>> environments = {};
   std::string argument = {};                         // copied from the request
   std::map<std::string, std::string> defaults = {};  // copied from the request
-  std::string baselines = {};                        // the folder, if printed commands must name it
+  std::string baselines = {};                        // baselines folder, if commands must name it
   bool times_decided = false;                        // copied from the request
   bool part = false;                                 // copied from the request
   // Notes about the run, which the last screen shows for every verdict: loaders and drivers that

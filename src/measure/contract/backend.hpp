@@ -118,7 +118,7 @@ struct Rasterizer {
   // may round point sizes down by up to this amount. A driver may also round them up by up to this
   // amount.
   double point_margin = 0;
-  double largest_point = 0;  // limit in pixels, without the margin; larger sprites become quads
+  double largest_point = 0;  // largest point in pixels, without margin; larger sprites become quads
 };
 
 // The compiler's report about the timed build.

@@ -16,7 +16,7 @@ struct Emulator {
   // do not change counts.
   std::string name;
   std::vector<std::string> command;      // placed before a worker's command
-  std::vector<std::string> environment;  // "NAME=VALUE", for the command
+  std::vector<std::string> environment;  // "NAME=VALUE" strings for the command
 };
 
 // Returns the emulator, or a line that states why instructions cannot be counted and what to

@@ -18,13 +18,13 @@ struct PlacedText {
 
 struct PlanEntry {
   PlacedText factor;
-  std::vector<PlacedText> values;  // as written; at least one
+  std::vector<PlacedText> values;  // as written in the file; at least one
 };
 
 struct PlanText {
   PlacedText suite;
   std::string summary;
-  record::Checks checks;           // empty if the plan does not state any
+  record::Checks checks;           // empty if the plan names no checks
   std::vector<PlanEntry> entries;  // in the order of the file, without duplicate factors
   // The blocks under `also`. Each block adds combinations in which the entries of the block replace
   // the plan's own entries for the same factors.

@@ -46,7 +46,7 @@ class SideEnded : public record::NotMeasured {
 // each value is the minimum over the repetitions.
 struct SideTimes {
   std::array<double, 2> wall_ns{};
-  std::optional<std::array<double, 2>> device_ns;  // set if reported for all frames
+  std::optional<std::array<double, 2>> device_ns;  // set if the device timed all frames
 };
 
 struct Block {
@@ -76,7 +76,7 @@ struct InterleavedOptions {
   double least_batch_ns = 1e6;
   // A block repeats its four batches until it lasts this long.
   double least_block_ns = 40e6;
-  std::uint64_t seed = 1;  // for the random order of each block
+  std::uint64_t seed = 1;  // seed for the random order of the batches in each block
 };
 
 class Interleaved {

@@ -65,7 +65,7 @@ struct RunResult {
   // (measure/contract/equivalents.hpp).
   int taken_over = 0;
   int skipped = 0;
-  int failed = 0;        // failed, crashed, hung or lost
+  int failed = 0;        // number of records that failed, crashed, hung or lost the device
   int there_before = 0;  // number of records that the resumed run already contained
   double wall_ns = 0;
   // The sum of the wall-clock times of all devices. It exceeds wall_ns if devices were measured in

@@ -14,7 +14,7 @@ namespace triptych::report {
 struct PlanTests {
   std::string suite;
   std::string plan;   // the plan as a command-line argument
-  std::string stem;   // the names of the plan's tests begin with this
+  std::string stem;   // prefix of the names of the plan's tests
   std::string store;  // the file to which the plan's records are written
   record::Checks checks;
   // If several devices have the same driver, the plan is measured only on the first of them.

@@ -17,7 +17,7 @@ namespace {
 
 struct CostAxis {
   std::string title;
-  std::string unit;  // written after a value
+  std::string unit;  // the unit, written after each value
 };
 CostAxis axis_of(Cost cost) {
   switch (cost) {
