@@ -1,5 +1,5 @@
 #pragma once
-// Compares two images and returns numbers. Writing files and messages is left to the callers.
+// Compares two images numerically. Callers are responsible for writing files and messages.
 
 #include <cstddef>
 #include <cstdint>

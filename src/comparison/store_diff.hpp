@@ -30,7 +30,7 @@ struct DeviceChange {
 // A plan, or a device in a plan, that exists in only one of the two stores.
 struct OnlyOne {
   std::string plan;
-  std::string device;  // empty: the whole plan
+  std::string device;  // empty if the whole plan is missing
   measure::Side side = measure::Side::a;
   auto operator<=>(const OnlyOne&) const = default;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// Straight lines through pairs of numbers: least squares, and the robust fit that is used to
-// correlate two devices.
+// Fits straight lines to pairs of numbers: by least squares, and by the robust method that is used
+// to correlate two devices.
 
 #include <cstddef>
 #include <span>

@@ -36,8 +36,8 @@ struct VariancePrior {
   double degrees = 0;   // d₀; infinite if the variances differ no more than expected by chance
   double variance = 0;  // s₀²
 };
-// Fits the prior to `variances` > 0 with their `degrees` > 0. With a single group, d₀ is 0, because
-// there is nothing to combine.
+// Fits the prior to the variances and their degrees of freedom, all of which must be positive. With
+// a single group, d₀ is 0, because there is nothing to combine.
 [[nodiscard]] VariancePrior fit_variance_prior(std::span<const double> variances,
                                                std::span<const double> degrees);
 // Returns the moderated variance s̃² = (d₀s₀² + d·s²)/(d₀ + d).

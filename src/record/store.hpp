@@ -113,8 +113,8 @@ class Store {
   // time, because a store may be larger than the memory. An exception from `visit` stops the
   // iteration.
   void visit_records(std::string_view run, const std::function<void(const Record&)>& visit) const;
-  // Returns the names that occur in the rows of the run's records in `table`, which must be a table
-  // of names and values, such as "factor" or "cost".
+  // Returns all names that occur in `table` for the records of the run. `table` must be a table of
+  // names and values, such as "factor" or "cost".
   [[nodiscard]] std::set<std::string> names(std::string_view run, std::string_view table) const;
   [[nodiscard]] std::uint64_t count_records(std::string_view run, std::string_view device) const;
   [[nodiscard]] bool has_record(std::string_view run, std::string_view configuration,

@@ -39,7 +39,7 @@ inline constexpr std::array analytic_problems{
 [[nodiscard]] bool is_shaded(AnalyticProblem problem);
 
 struct AnalyticOptions {
-  std::array<int, 3> size{32, 32, 32};  // in voxels; v6_layers needs an even number along z
+  std::array<int, 3> size{32, 32, 32};  // size in voxels; v6_layers needs an even number along z
   std::array<double, 3> spacing{1, 1, 1};
   int width = 32;
   int height = 32;

@@ -42,7 +42,8 @@ constexpr double most_extinction = 1e12;
 // A change that is smaller than this is attributed to rounding.
 constexpr double least_tolerance = 0x1.0p-48;
 
-// The part of the ray between two planes of voxel centres, with s from 0 to 1.
+// The part of the ray between two adjacent planes of voxel centres. The position s along it runs
+// from 0 to 1.
 struct Cell {
   double length = 0;              // in voxel lengths
   Cubic knot;                     // values along the ray, as positions in the table

@@ -1,6 +1,6 @@
 #pragma once
-// Computes how much counters may differ on a device that limits the size of points. Such a device
-// draws larger sprites as quads.
+// Computes by how much counters may differ on a device that limits the size of points, compared
+// with other devices. Such a device draws larger sprites as quads.
 
 #include <map>
 #include <string>

@@ -18,7 +18,7 @@ struct AnalyticData {
 };
 
 // The level that selects the data's own transfer function. Only analytic problems and stress cases
-// have their own transfer function. For all other data, this level means `surfaces`, with which
+// have their own transfer function. For all other data, this level means `surfaces`, which makes
 // rays end early.
 inline constexpr std::string_view own_transfer_function = "own";
 

@@ -60,7 +60,7 @@ StressScene stress_field_of_view(std::string_view variant) {
     scene.function.entries[0][3] = 0.1F;
     return scene;
   }
-  // The image covers a thousandth of a voxel, where the field is steep.
+  // The image covers only a thousandth of a voxel, in a region where the field is steep.
   scene.camera = looking({31, 33, 41}, {9.25, 16.5, 12.75}, 0.001);
   return scene;
 }

@@ -71,7 +71,8 @@ StressScene stress_nearly_solid(std::string_view variant) {
   return scene;
 }
 
-// Each of 10⁵ samples has opacity 2⁻²⁰: 1 − (1 − 2⁻²⁰)^100000 = 0.0910 for a ray along the cube.
+// Each of 10⁵ samples has opacity 2⁻²⁰, so a ray along the cube has a total opacity of 1 − (1 −
+// 2⁻²⁰)^100000 = 0.0910.
 StressScene stress_faint(std::string_view /*variant*/) {
   constexpr double step = 4e-5;
   StressScene scene = marched(step, 4);

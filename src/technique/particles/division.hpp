@@ -48,7 +48,7 @@ class Division {
   // particles that are wider than a cell of the grid. Particles with the same centre are in the
   // same part, unless some of them are large enough for part 0.
   [[nodiscard]] std::uint32_t part_of(std::uint32_t place) const;
-  // Returns the number of parts, some of which are empty.
+  // Returns the number of parts, including empty parts.
   [[nodiscard]] std::size_t parts() const { return nodes_.size(); }
 
  private:

@@ -15,7 +15,7 @@ namespace triptych::technique {
 // How a volume is divided into bricks. All lengths are in voxels.
 struct BrickLayout {
   int edge = 8;
-  int border = 1;  // voxels beyond the brick that its samples may read
+  int border = 1;  // number of voxels that samples may read beyond the brick
   // Whether bricks begin at voxel centres instead of half a voxel before them. A brick then
   // consists of edge³ cells of trilinear interpolation, whose corners are (edge + 1)³ voxels.
   bool of_cells = false;

@@ -96,8 +96,8 @@ std::optional<std::string> cells_reason(const scene::VolumeScene& scene,
 }
 
 // Returns an error message if rays have too many samples in this scene, or nullopt. Samples are
-// counted in 32-bit integers. Only extremely flat voxels would need more samples, and they would
-// not benefit from them.
+// counted in 32-bit integers. Only extremely flat voxels would require more samples, which would
+// not improve the image.
 std::optional<std::string> count_reason(const scene::VolumeScene& scene) {
   const double samples = most_samples(scene);
   if (samples < 1 << 30) return std::nullopt;

@@ -97,8 +97,8 @@ static_assert(offsetof(BasicRaycastParameters<double>, volume_size) == std::size
 // box's nearest corner. The reason is that float coordinates of a distant eye would have errors of
 // whole voxels, while a point on the plane is as accurate as the box itself.
 [[nodiscard]] double ray_plane(const scene::VolumeScene& scene);
-// If the distance of the eye exceeds this number of diagonals of the box, rays begin on that plane.
-// For a closer eye, the error is less than 1e-4 of the box's size.
+// If the distance of the eye exceeds this number of diagonals of the box, rays begin on the plane
+// that ray_plane() returns. For a closer eye, the error is less than 1e-4 of the box's size.
 inline constexpr double far_in_diagonals = 16;
 
 // Returns the bytes of the parameters, in the precision of the options. A u8 or u16 voxel reaches
