@@ -64,7 +64,7 @@ struct ImageComparison {
                                       double bound);
 
 // Returns the root mean square difference over all channels, or NaN if the sizes differ or a value
-// is not finite. If `bound` has ids, only pixels with a certain id are compared, because two
+// is not finite. If `bound` has ids, only pixels whose id is certain are compared, because two
 // correct images may have completely different colours at the edge of a sphere.
 [[nodiscard]] double root_mean_square(const core::Image& a, const core::Image& b,
                                       const core::Image& bound = {});

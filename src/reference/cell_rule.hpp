@@ -345,8 +345,8 @@ class CellRule {
         scene_.shading, rounding);
   }
 
-  // Returns coth z − 1/z. For z < 0.05, where the difference would cancel, it uses the series, with
-  // an error below 1e-15.
+  // Returns coth z − 1/z. For z < 0.05, where the difference would suffer from cancellation, it
+  // uses the series, with an error below 1e-15.
   [[nodiscard]] static double langevin(double z) {
     if (z < 0.05) return z * (1.0 / 3.0 - z * z * (1.0 / 45.0 - z * z * 2.0 / 945.0));
     return 1.0 / std::tanh(z) - 1.0 / z;

@@ -29,7 +29,8 @@ Radiance v2_ramp(double k) {
 Radiance v3_segment(const LinearSegment& s) {
   const double depth = s.length * (s.tau0 + 0.5 * s.tau1 * s.length);
   const double opacity = -std::expm1(-depth);
-  // −(c₀+c₁l)·E(l) + c₀ is computed as c₀·A − c₁·l·E(l), because the first form would cancel.
+  // −(c₀+c₁l)·E(l) + c₀ is computed as c₀·A − c₁·l·E(l), because the first form would suffer from
+  // cancellation.
   const double integral = transmittance_integral(s.tau0, s.tau1, s.length);
   const double colour = s.colour0 * opacity + s.colour1 * (integral - s.length * std::exp(-depth));
   return {colour, opacity};
@@ -62,7 +63,7 @@ double transmittance_integral(double a, double b, double length) {
   const double x = a * length;
   const double y = b * length * length;
   if (std::max(std::abs(x), std::abs(y)) <= 1.0) return taylor_integral(a, b, length);
-  // The segment is optically thick here, so neither difference below cancels.
+  // The segment is optically thick here, so neither difference below suffers from cancellation.
   const double left = std::exp(-x - 0.5 * y);
   if (std::abs(y) <= 1e-17 * x) return (1.0 - left) / a;
   const double end = std::max(a + b * length, 0.0);

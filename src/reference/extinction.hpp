@@ -21,8 +21,8 @@ namespace triptych::reference {
 }
 
 // Returns the mean of −ln(1 − alpha) for an alpha that changes linearly from a to b. It uses the
-// antiderivative F(α) = (1 − α)·ln(1 − α) + α or, where the difference of F would cancel, its
-// series around the middle.
+// antiderivative F(α) = (1 − α)·ln(1 − α) + α or, where the difference of F would suffer from
+// cancellation, its series around the middle.
 [[nodiscard]] inline double mean_extinction(double a, double b) {
   const double middle = 0.5 * (a + b);
   const double left = 1.0 - middle;

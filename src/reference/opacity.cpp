@@ -8,8 +8,8 @@ namespace triptych::reference {
 namespace {
 
 // Most steps are powers of two, for which no logarithm is needed: 1 − √(1 − α) = α/(1 + √(1 − α))
-// halves a step, and 1 − (1 − α)² = α·(2 − α) doubles it. Neither formula cancels, and both are
-// rounded in the same way on every machine.
+// halves a step, and 1 − (1 − α)² = α·(2 − α) doubles it. Neither formula suffers from
+// cancellation, and both are rounded in the same way on every machine.
 constexpr int most_doublings = 5;
 
 double doubled(double alpha, int times) {

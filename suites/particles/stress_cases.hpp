@@ -4,9 +4,9 @@
 // its own camera and viewport, which are used if the factors `camera`, `fov` and `viewport` have
 // the level `own`.
 //
-// In every image, each certain pixel (reference/spheres.hpp) must show the same particle as the
-// reference image, with depth and colour within the bounds of tolerance.hpp. Any other pixel must
-// show one of the colours that are possible there. Each case states why single precision is
+// In every image, each pixel that is certain (reference/spheres.hpp) must show the same particle as
+// the reference image, with depth and colour within the bounds of tolerance.hpp. Any other pixel
+// must show one of the colours that are possible there. Each case states why single precision is
 // sufficient for this, and what else is expected.
 
 #include <optional>

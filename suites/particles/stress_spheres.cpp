@@ -142,7 +142,7 @@ StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
 }
 
 // Seven spheres of the same apparent size, because their radii are proportional to their distances.
-// Each overlaps the next one, which is ten times as far away.
+// Each sphere overlaps the next sphere, which is ten times as far away.
 StressScene stress_depth_range(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({0, 0, 0}, {0.3, -0.1, -1}, 60), stress_side, stress_side);
   double depth = 1e-3;

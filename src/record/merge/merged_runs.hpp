@@ -13,7 +13,7 @@ namespace triptych::record {
 // The merged run of a plan, and the parts from which it is merged.
 struct MergedRun {
   Run run;
-  std::vector<std::string> parts;  // run id in each store; empty if the store has no run
+  std::vector<std::string> parts;           // run id in each store; empty if the store has no run
   std::vector<Store::DeviceEntry> devices;  // sorted by id
   std::vector<std::string> planned;         // keys of the configurations of all parts, sorted
 };

@@ -113,8 +113,8 @@ class OpaqueRanges {
  private:
   static constexpr int entries = 256;
 
-  // Returns the entry that is `beyond` entries after the last entry whose centre is below the
-  // value.
+  // Returns the index of the last entry whose centre is not above the value, plus `beyond`, clamped
+  // to the table.
   [[nodiscard]] static std::size_t entry(float value, int beyond) {
     const int below = static_cast<int>(std::floor(static_cast<double>(value) * entries - 0.5));
     return static_cast<std::size_t>(std::clamp(below + beyond, 0, entries - 1));
@@ -123,7 +123,8 @@ class OpaqueRanges {
   std::array<int, entries + 1> opaque_before_{};  // [k]: number of opaque entries before entry k
 };
 
-// The number of bytes of a buffer that every Vulkan device can bind (maxStorageBufferRange).
+// The largest buffer, in bytes, that every Vulkan device can bind (the required minimum of
+// maxStorageBufferRange).
 constexpr std::uint64_t most_map_bytes = 1U << 27U;
 
 BrickLayout bricks_of_cells(const std::array<int, 3>& size) {
