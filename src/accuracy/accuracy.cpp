@@ -79,7 +79,8 @@ std::optional<std::string> only_difference(const Factors& a, const Factors& b) {
   return only;
 }
 
-// Returns the indices sorted by error. If errors are equal, the fastest case comes first.
+// Returns the indices of the cases, sorted by error. If errors are equal, the fastest case comes
+// first.
 std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
   std::vector<std::size_t> order(cases.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,6 +1,7 @@
 #pragma once
-// Compares two sides over all configurations of a plan. First compares the deterministic
-// measurements (images, counters, statistics, cost, memory), and then interleaved frame times.
+// Compares two sides (a and b), such as two devices, drivers or builds, over all configurations of
+// a plan. First compares the deterministic measurements (images, counters, statistics, cost,
+// memory), and then interleaved frame times.
 
 #include <array>
 #include <chrono>

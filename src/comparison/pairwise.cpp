@@ -43,7 +43,7 @@ Ranks rank(std::vector<double> values) {
   return ranks;
 }
 
-// Returns P(sum = s) for s = 0, 1, …, where each rank is part of the sum with probability ½.
+// Returns P(sum = s) for s = 0, 1, …, where each rank is included in the sum with probability ½.
 std::vector<double> null_distribution(std::span<const std::size_t> ranks) {
   std::vector<double> share{1};
   for (const std::size_t rank : ranks) {

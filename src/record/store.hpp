@@ -96,8 +96,8 @@ class Store {
 
   [[nodiscard]] std::vector<Run> runs() const;  // oldest first
   [[nodiscard]] std::optional<Run> latest_run(std::string_view plan) const;
-  // Returns the sorted keys of all configurations that the run was to measure. Throws InputError if
-  // this list was changed after it was stored.
+  // Returns the sorted keys of all configurations that the run was supposed to measure. Throws
+  // InputError if this list was changed after it was stored.
   [[nodiscard]] std::vector<std::string> planned(const Run& run) const;
   // Returns the keys of the configurations for which the run has a record on this device.
   [[nodiscard]] std::set<std::string> configurations(std::string_view run,

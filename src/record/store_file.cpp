@@ -99,7 +99,7 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
   SQLite::Database database(file_name(file),
                             SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | one_thread,
                             milliseconds_of(busy_limit));
-  // SQLite opens a read-only file for reading and does not report that it cannot be written.
+  // SQLite silently opens a read-only file for reading only.
   if (sqlite3_db_readonly(database.getHandle(), "main") == 1) {
     throw core::IoError(
         fmt::format("{}: the store is read-only, so nothing can be added to it", file.string()));

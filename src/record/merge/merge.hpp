@@ -18,7 +18,7 @@ struct Gap {
   std::string plan;
   std::string device;  // empty if the gap affects the whole plan
   std::uint64_t records = 0;
-  // The number of configurations that were to be measured; 0 if there were none.
+  // The number of configurations that should have been measured; 0 if there were none.
   std::uint64_t configurations = 0;
   // The keys of the configurations without a record, if the run lists its configurations.
   std::vector<std::string> missing = {};

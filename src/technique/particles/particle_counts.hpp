@@ -34,7 +34,7 @@ inline constexpr std::size_t particle_counter_columns = 8;
 inline constexpr std::size_t particle_counter_bytes =
     particle_counter_rows * particle_counter_columns * sizeof(std::uint32_t);
 
-// Returns the number of different particles that are visible in the image.
+// Returns the number of distinct particles that are visible in the image.
 [[nodiscard]] std::uint64_t visible_ids(const core::Image& picture);
 
 struct CountedFrame {
