@@ -86,7 +86,7 @@ int open_within(int parent, const std::string& name, const fs::path& folder) {
   const struct stat status = status_of(fd.get(), folder);
   if (status.st_uid != ::geteuid()) refuse(folder, "belongs to another user");
   if ((status.st_mode & others_write) != 0) {
-    refuse(folder, "other users can write to it; remove this folder");
+    refuse(folder, "is writable by other users; remove this folder");
   }
   if ((status.st_mode & 0777) != only_this_user && ::fchmod(fd.get(), only_this_user) != 0) {
     refuse(folder, errno);

@@ -117,8 +117,8 @@ ReadFacts facts_of(Atoms& atoms) {
   if (!atoms.elements || !atoms.radii.empty()) return facts;
   if (const std::string list = without_element(facts.kinds); !list.empty()) {
     facts.notes.push_back(
-        fmt::format("some atoms are not chemical elements ({}); they are drawn with a radius of 2 "
-                    "Å and arbitrary colours",
+        fmt::format("some atoms do not belong to a known chemical element ({}); they are drawn "
+                    "with a radius of 2 Å and arbitrary colours",
                     list));
   }
   return facts;

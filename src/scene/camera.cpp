@@ -175,7 +175,9 @@ double parse_lambda(std::string_view spec, std::string_view text) {
   if (slash == std::string_view::npos) reject(spec, "PATH:i/n");
   const auto i = parse_number<std::int32_t>(text.substr(0, slash));
   const auto n = parse_number<std::int32_t>(text.substr(slash + 1));
-  if (!i || !n || *i < 0 || *i >= *n) reject(spec, "PATH:i/n with whole numbers 0 <= i < n");
+  if (!i || !n || *i < 0 || *i >= *n) {
+    reject(spec, "PATH:i/n, where i and n are whole numbers with 0 <= i < n");
+  }
   return static_cast<double>(*i) / *n;
 }
 
@@ -202,7 +204,7 @@ Pose pose_of(std::string_view spec, const Stage& stage) {
   const std::string_view rest = spec.substr(colon + 1);
   if (path == "random") {
     const auto seed = parse_number<std::uint64_t>(rest);
-    if (!seed) reject(spec, "random:SEED with a whole number of at most 64 bits");
+    if (!seed) reject(spec, "random:SEED, where SEED is an unsigned 64-bit integer");
     return random_view(stage, *seed);
   }
   if (path == "view") {

@@ -93,7 +93,7 @@ const Style& guessed_style(const Words& words, const LineReader& reader) {
 std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& count) {
   static_cast<void>(reader.require("a title"));
   for (;;) {
-    const std::string_view line = reader.require("the section Atoms");
+    const std::string_view line = reader.require("the Atoms section");
     const std::string_view text = without_comment(line);
     if (text == "Atoms") {
       const std::size_t comment = line.find('#');
@@ -136,7 +136,7 @@ ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind
     reader.reject(fmt::format("there is no frame {}; a LAMMPS data file has only frame 0", frame));
   std::optional<std::uint64_t> count;
   const std::string_view comment = find_atoms(reader, count);
-  if (!count) reader.reject("expected 'N atoms' before the section Atoms");
+  if (!count) reader.reject("expected 'N atoms' before the Atoms section");
   if (*count == 0) reader.reject("expected atoms, found none");
   const Style* style = named_style(comment, reader);
   if (!trimmed(reader.require("a blank line")).empty()) {

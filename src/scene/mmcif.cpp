@@ -189,7 +189,7 @@ class AtomRows {
 
   [[nodiscard]] Atoms take() {
     if (models_.empty()) {
-      reader_.reject(fmt::format("expected rows of {}, found none", category));
+      reader_.reject(fmt::format("expected rows of {}*, found none", category));
     }
     if (frame_ >= models_.size()) {
       reader_.reject(fmt::format(
@@ -251,7 +251,7 @@ Atoms read_rows(Tokens& tokens, const AtomColumns& columns, std::uint64_t frame,
     row.clear();
     for (; row.size() < columns.count; tokens.take()) {
       if (!tokens.peek() || !tokens.peek()->is_value()) {
-        reader.reject(fmt::format("expected {} values in each row of {}, found {} in the last row",
+        reader.reject(fmt::format("expected {} values in each row of {}*, found {} in the last row",
                                   columns.count, category, row.size()));
       }
       row.push_back(tokens.peek()->text);
@@ -350,7 +350,7 @@ ParticleSet read_mmcif(LineReader& reader, std::uint64_t frame, ColourKind colou
     }
   }
   if (!atoms) {
-    reader.reject(fmt::format("expected a loop over {}, found none{}{}", category,
+    reader.reject(fmt::format("expected a loop over {}*, found none{}{}", category,
                               other.empty() ? "" : ": ", other));
   }
   if (others > 0) {

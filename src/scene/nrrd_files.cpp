@@ -96,7 +96,7 @@ std::optional<std::vector<std::string>> files_of_pattern(std::string_view value,
   std::vector<std::string> names;
   for (std::int64_t i = lo; step > 0 ? i <= hi : i >= hi; i += step) {
     if (names.size() == most_files)
-      throw core::InputError(place, "the pattern names more than 100000 files");
+      throw core::InputError(place, "the pattern yields more than 100000 file names");
     const std::string number = width.starts_with('0') ? fmt::format("{:0{}}", i, *digits)
                                                       : fmt::format("{:{}}", i, *digits);
     names.push_back(fmt::format("{}{}{}", name.substr(0, percent), number, name.substr(end + 1)));
@@ -119,7 +119,7 @@ void locate_files(const Header& header, const Field& data, const std::filesystem
   } else {
     named.push_back(data);
   }
-  if (named.empty()) throw core::InputError(data.place, "the pattern names no files");
+  if (named.empty()) throw core::InputError(data.place, "the pattern yields no file names");
   for (const Field& each : named) {
     const auto found = data_file_beside(file, each.value, each.place);
     if (source.file.empty()) {

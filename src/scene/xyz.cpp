@@ -49,7 +49,7 @@ XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
                                 quotable(word)));
     }
     if (type.size() != 1 || std::string_view("rils").find(type) == std::string_view::npos) {
-      reader.reject(fmt::format("expected Properties=NAME:TYPE:COUNT:… with the types R, I, L and S, "
+      reader.reject(fmt::format("expected Properties=NAME:TYPE:COUNT:… with type R, I, L or S, "
                                 "found '{}'",
                                 quotable(type)));
     }

@@ -137,7 +137,7 @@ TEST_F(PlantedCache, ASymbolicLinkIsRejected) {
 TEST_F(PlantedCache, AFolderThatOthersCanWriteIsRejected) {
   std::filesystem::create_directory(planted_);
   ASSERT_EQ(::chmod(planted_.c_str(), 0777), 0);
-  EXPECT_THAT(refusal(), testing::HasSubstr("other users can write to it"));
+  EXPECT_THAT(refusal(), testing::HasSubstr("is writable by other users"));
 }
 
 TEST_F(PlantedCache, AFolderThatOthersCanReadIsMadePrivate) {
@@ -157,7 +157,7 @@ TEST_F(PlantedCache, AFolderOfAnotherUserIsRejected) {
 
 TEST_F(PlantedCache, AParentInWhichOthersCanRenameIsRejected) {
   ASSERT_EQ(::chmod(scratch_.path().c_str(), 0777), 0);
-  EXPECT_THAT(refusal(), testing::HasSubstr("no sticky bit"));
+  EXPECT_THAT(refusal(), testing::HasSubstr("sticky bit is not set"));
   ASSERT_EQ(::chmod(scratch_.path().c_str(), 01777), 0);
   EXPECT_THAT(refusal(), StartsWith("used: "));
 }

@@ -296,7 +296,7 @@ TEST(Nrrd, BrokenHeadersAreReportedWithTheirLine) {
       {minimal + "data file: LIST\n", ":6: expected the names of the data files after LIST"},
       {with_line("data file: slice%03d.raw 1 9 1"),
        ":3: the data file 'slice001.raw' does not exist"},
-      {with_line("data file: slice %03d.raw 1 9 -1 2"), ":3: the pattern names no files"},
+      {with_line("data file: slice %03d.raw 1 9 -1 2"), ":3: the pattern yields no file names"},
       {with_line("data file: slice%s.raw 1 9 1"), ":3: expected a pattern such as slice%03d.raw"},
       {"NRRD0004\ntype: uint8\ntype: uint8\n", ":3: field 'type' is given twice"},
       {minimal + "space directions: (1,0,0) (0,1,0) (0,0,1)\nspacings: 1 1 1\n\nAB",

@@ -145,7 +145,7 @@ TEST(Mmcif, RejectsBrokenFiles) {
   expect_refused("a.cif", replaced(cif, "53.499", "?"),
                  ":18:", "Cartn_y: expected a number, found '?'");
   expect_refused("a.cif", replaced(cif, "C C 1 2 3 7", "C C 1 2"), "",
-                 "expected 6 values in each row of _atom_site., found 4 in the last row");
+                 "expected 6 values in each row of _atom_site.*, found 4 in the last row");
   expect_refused("a.cif", replaced(cif, "_atom_site.Cartn_z", "_atom_site.z"), "",
                  "the column _atom_site.Cartn_z is missing");
   expect_refused("a.cif", "data_X\n", ":1:", "expected a loop over _atom_site.");

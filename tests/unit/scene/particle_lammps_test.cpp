@@ -158,7 +158,7 @@ TEST(LammpsData, RejectsBrokenFiles) {
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n2 1 1 - 3\n"), ":15:", "y: expected a number");
   expect_refused("a.data", data("Atoms", "1 1 1 2 7\n2x 1 1 1 3\n"),
                  ":15:", "id: expected a whole number");
-  expect_refused("a.data", data("Bonds", ""), ":13:", "expected the section Atoms");
+  expect_refused("a.data", data("Bonds", ""), ":13:", "expected the Atoms section");
   expect_refused("a.data", "title\n\nAtoms\n\n1 1 0 0 0\n", ":3:", "expected 'N atoms'");
   expect_refused("a.data", data("Atoms", rows), "",
                  "no frame 1; a LAMMPS data file has only frame 0", "@1");
