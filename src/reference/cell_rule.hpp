@@ -250,7 +250,7 @@ class CellRule {
     return {nominal, nominal - doubtful_length(ray, from, to) / smallest_spacing_, nominal};
   }
 
-  // Returns the ray with all positions additionally uncertain by up to `way` along the ray.
+  // Returns the ray with the uncertainty of all positions increased by up to `way` along the ray.
   [[nodiscard]] static Ray widened(Ray ray, double way) {
     ray.position_error = ray.position_error_within(way);
     return ray;

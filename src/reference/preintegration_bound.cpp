@@ -269,8 +269,8 @@ double PreintegrationBound::colour_error(std::size_t i, const StepOpacity& opaci
       range * std::min(cut_off(most_depth()), cut_off_of_chunk * most + least_left);
   const double cut_offs = std::min(chunks + deep_cells_[i], range * most);
   const double ends = std::min(ends_[i], 2.0 * around_.slope[i] * most);
-  // Apart from the truncation, a device's colour is a weighted mean of the colours along the path,
-  // as the exact colour is.
+  // Like the exact colour, a device's colour is a weighted mean of the colours along the path,
+  // apart from the truncation.
   return error + std::min(weights + cut_offs + ends, range * most + cut_offs) / most;
 }
 

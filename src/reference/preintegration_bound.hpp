@@ -107,7 +107,8 @@ class PreintegrationBound {
   const ErrorModel& model_;
   StepPath path_;
   double span_;  // length of the path, in table entries
-  // The largest factor for the length of a device's cells; 0 if the path hardly leaves a cell.
+  // The largest factor by which a device's cells may be longer than the exact cells; 0 if the path
+  // hardly leaves a cell.
   double widening_;
   Reach around_;
   double alpha_error_;

@@ -1,6 +1,6 @@
 #pragma once
-// Properties of spheres that can be computed without drawing them. S1 … S6 are their numbers in
-// this project.
+// Properties of spheres that can be computed without drawing them. In this project, they are
+// numbered S1 … S6.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -36,8 +36,8 @@ struct SphereEntry {
 // is far away: ∫₀¹ √(1−ρ²)·2ρ dρ.
 inline constexpr double s3_mean_cosine = 2.0 / 3.0;
 
-// S4: two equal spheres intersect in the plane that bisects their centres. Returns the signed
-// distance of a point from this plane, which is positive on the side of `first`.
+// S4: two equal spheres intersect in the plane that bisects the line between their centres. Returns
+// the signed distance of a point from this plane, which is positive on the side of `first`.
 [[nodiscard]] double s4_bisector(const glm::dvec3& point, const glm::dvec3& first,
                                  const glm::dvec3& second);
 

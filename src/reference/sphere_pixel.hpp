@@ -40,7 +40,7 @@ class SpherePicture {
   const SphereErrorModel& model;
 
  private:
-  // Returns by how much the tree's boxes must grow so that every sphere that may be reached is
+  // Returns the growth that the tree's boxes need, so that every sphere that a ray may reach is
   // found.
   [[nodiscard]] double growth() const;
 

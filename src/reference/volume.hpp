@@ -27,8 +27,8 @@ struct ErrorModel {
                                  // transmittance, and of each shading operation
   double ert = 0;                // transmittance below which a device may stop
   double adapt = 0;              // largest change of any channel that merging samples may cause
-  double output_error = 0;       // relative error of a finished channel that is stored
-                                 // with less precision than it was computed with
+  double output_error = 0;       // relative error of a final channel value that is
+                                 // stored with reduced precision
 };
 
 struct Truth {
@@ -36,7 +36,7 @@ struct Truth {
   int height = 0;
   std::vector<double> rgba;   // as in core::Image, premultiplied, top row first
   std::vector<double> bound;  // per pixel: the largest error of any channel that the model allows;
-                              // for render_volume_converged: the change by the last halvings
+                              // for render_volume_converged: the change caused by the last halvings
   // Only for render_volume_converged: the number of points on rays that were looked up.
   std::uint64_t samples = 0;
 

@@ -93,7 +93,7 @@ StressScene stress_octant(std::string_view variant) {
   const auto at = [&](int index, int axis) { return sign[axis] < 0 ? edge - 1 - index : index; };
   StressScene scene = seen_from_outside(volume_of(
       size, [&](int i, int j, int k) { return lopsided(size, at(i, 0), at(j, 1), at(k, 2)); }));
-  // Coordinates have few bits, so that the mirrored eye is exact.
+  // The coordinates need only a few bits, so that the mirrored eye is exact.
   const scene::Camera plain = looking(glm::dvec3(20, 13, 27), {0, 0, 0}, 50);
   scene.camera = along(glm::dvec3(edge / 2.0) + sign * plain.eye, sign * plain.forward,
                        sign * plain.up, plain.fov_y_deg);

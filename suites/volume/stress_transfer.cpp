@@ -62,7 +62,7 @@ StressScene stress_solid(std::string_view /*variant*/) {
   return scene;
 }
 
-// Each voxel length leaves 2⁻²⁴ of the light. The three variants correct the opacity by square
+// Each voxel length transmits 2⁻²⁴ of the light. The three variants correct the opacity by square
 // roots, by squares, and by logarithm and exponential.
 StressScene stress_nearly_solid(std::string_view variant) {
   StressScene scene = lopsided_scene();

@@ -116,8 +116,8 @@ StressScene stress_denormal(std::string_view variant) {
   } else if (variant == "colour") {
     scene.function = uniform({1e-40F, 0.5F, 1e-42F, 0.05F});
   } else {
-    // The transmittance passes through the range of denormals, because each voxel leaves 1e-4 of
-    // it, and nothing ends the ray.
+    // The transmittance passes through the range of denormals, because each voxel transmits 1e-4 of
+    // the light, and nothing ends the ray.
     scene.function = uniform({0.75F, 0.5F, 0.25F, 0.9999F});
   }
   return scene;

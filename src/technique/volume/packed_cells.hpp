@@ -16,8 +16,9 @@
 namespace triptych::technique {
 
 // Cell (x, y, z) is between the voxels x−1 and x, y−1 and y, z−1 and z, clamped to the edge. Along
-// each axis there is one more cell than voxels. The cell is texel x + row·(y + column·z) of a
-// buffer, where `row` and `column` are the numbers of cells along x and y. A texel contains
+// each axis, there is one more cell than there are voxels. The cell is texel
+// x + row·(y + column·z) of a buffer, where `row` and `column` are the numbers of cells along x and
+// y. A texel contains
 //   u8   two words with four voxels each, first for the lower and then for the upper z: (x−1, y−1)
 //        in the lowest byte, then (x, y−1), (x−1, y), (x, y)
 //   u16  four words with two voxels each, in the same order: two words for each z

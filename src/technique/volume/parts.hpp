@@ -20,7 +20,7 @@
 namespace triptych::technique {
 
 // A range of cells along z, numbered as in packed_cells.hpp: cell c is between the slices c − 1 and
-// c, clamped to the edge. There is one more cell than slices.
+// c, clamped to the edge. There is one more cell than there are slices.
 struct Part {
   int begin = 0;  // the pass takes the samples in the cells from `begin` to `end` (exclusive)
   int end = 0;

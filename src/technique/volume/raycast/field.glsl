@@ -155,7 +155,7 @@ Ray make_ray(ivec2 pixel) {
   d = d / sqrt(dot(d, d));
   real3 v = d * u.inverse_spacing.xyz;
   real3 size = real3(u.volume_size.xyz);
-  // If the eye is far away, the ray begins on a plane between eye and box, otherwise at the eye.
+  // If the eye is far away, the ray begins on a plane between the eye and the box, otherwise at the eye.
   real3 origin = u.eye.xyz +
                  (u.value_map.z * (ndc.x * u.ray_right.xyz - ndc.y * u.ray_up.xyz)) * u.inverse_spacing.xyz;
   real2 x = tri_slab(origin.x, v.x, size.x);
