@@ -38,7 +38,7 @@ struct ImageComparison {
   std::size_t over_bound = 0;
   Place worst;          // pixel with the largest ratio
   Place largest;        // pixel with the largest error
-  double rmse = 0;      // over all channels of the compared pixels
+  double rmse = 0;      // root mean square error over all channels of the compared pixels
   double error_99 = 0;  // 99th percentile of the pixels' errors
   // Results for images of particles; 0 for other images.
   std::size_t wrong_ids = 0;

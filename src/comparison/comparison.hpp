@@ -23,7 +23,7 @@ struct ComparisonOptions {
   measure::Plan plan;
   measure::SideOptions a;
   measure::SideOptions b;
-  std::vector<measure::InjectedFault> faults;  // injected into side b
+  std::vector<measure::InjectedFault> faults;  // faults to inject into side b
   // The time budget, counted from the start of the comparison. When it is used up, no further
   // blocks are measured. Without the deterministic measurements, the first look at each
   // configuration and the confirmation, there would be no result, so these are always completed,

@@ -53,7 +53,7 @@ enum class DifferenceCause : std::uint8_t {
   no_reference,            // there is no reference image [sides: the reason]
   wrong_image,             // an image is wrong [sides: the errors of each wrong image]
   other_bits,              // both images are correct, but not identical ["pixels" of "total", …]
-  other_bits_of_one_code,  // as above, although device, settings and device code are equal
+  other_bits_of_one_code,  // as for other_bits, although device, settings and device code are equal
   two_counters,            // the sides used different instruction counters [<a> <b>]
   values_changed,          // values such as instructions or bytes differ [changes]
   code_changed,            // the compiler's report differs [code]
@@ -84,19 +84,19 @@ struct Difference {
   std::optional<measure::Side> side = {};  // the side, if only one side has the value
   std::map<std::string, double> numbers = {};
   std::map<std::string, std::string> facts = {};
-  std::vector<judge::Change> changes = {};  // from a to b
+  std::vector<judge::Change> changes = {};  // changes from a to b
   BySide<judge::Observation> sides = {};
   BySide<record::StatisticWorth> worths = {};
   std::optional<judge::CodeComparison> code = {};
   std::optional<judge::CodeTotal> total = {};
   std::string injected = {};  // faults injected into a side with --inject
 
-  [[nodiscard]] std::string about() const;  // such as "image" or "counter samples"
+  [[nodiscard]] std::string about() const;  // the measurement, such as "image" or "counter samples"
 };
 
 // Differences of the same kind in the same measurement, which are reported together.
 struct DifferenceGroup {
-  Difference difference;  // the difference with the largest change, or the first one
+  Difference difference;  // largest change, or the first if none has a ratio
   std::string where;      // configuration of `difference`; empty: a difference between devices
   int count = 0;
   std::optional<std::pair<double, double>> ratios;  // the smallest and the largest `ratio`

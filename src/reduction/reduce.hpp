@@ -29,7 +29,7 @@ struct Reduction {
   Failure failure;  // the failure of the smallest configuration
   std::vector<Step> steps;
   int frames = 0;        // number of frames drawn
-  bool complete = true;  // false if the search reached `most_frames` before it knew that no
+  bool complete = true;  // false if the search reached `most_frames` before finding that no
                          // simpler level of any factor fails in the same way
 };
 

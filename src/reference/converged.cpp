@@ -215,7 +215,7 @@ class ConvergedRaycaster {
   glm::dvec3 gradient_scale_;
   double share_per_voxel_ = 0;  // share of the tolerance per voxel length
   std::vector<double> planes_;
-  std::vector<double> cuts_;  // within a cell, from 0 to 1
+  std::vector<double> cuts_;  // cuts within a cell, as positions from 0 to 1
   PieceLight sum_;            // light of the ray so far
   Pixel pixel_;
 };

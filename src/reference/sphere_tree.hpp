@@ -24,7 +24,7 @@ class SphereTree {
   struct Sphere {
     glm::vec3 centre{};       // in world space
     float radius = 0;         // with radius_scale
-    std::uint32_t index = 0;  // in the particle set
+    std::uint32_t index = 0;  // index in the particle set
   };
 
   // Every box is grown by `growth` times the distance of its farthest corner from the eye. Throws
@@ -69,7 +69,7 @@ class SphereTree {
  private:
   // The first child of a node directly follows it.
   struct Node {
-    std::array<float, 3> lo{};  // relative to the eye
+    std::array<float, 3> lo{};  // lower corner, relative to the eye
     std::array<float, 3> hi{};
     std::uint32_t next = 0;   // index of the second child, or of a leaf's first sphere
     std::uint32_t count = 0;  // number of spheres in a leaf; 0 for an inner node

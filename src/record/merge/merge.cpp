@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 // three file descriptors and a share of the memory. If there are more stores, they are merged in
 // groups of this size, and then the results of the groups are merged.
 constexpr std::size_t most_at_once = 64;
-constexpr int source_cache_kib = 96 << 10;  // total for all sources
+constexpr int source_cache_kib = 96 << 10;  // SQLite page cache, total for all sources
 constexpr int out_cache_kib = 96 << 10;
 constexpr std::chrono::seconds busy_limit{10};
 

@@ -47,7 +47,7 @@ enum class Property : std::uint8_t {
 struct Arrangement {
   std::shared_ptr<const scene::ParticleSet> particles;
   double radius_scale = 1;
-  std::vector<std::uint32_t> order;  // indices into the set
+  std::vector<std::uint32_t> order;  // indices of particles in the set
   std::vector<Cell> cells;           // each cell is a range of `order`
 
   [[nodiscard]] std::size_t count() const noexcept { return order.size(); }

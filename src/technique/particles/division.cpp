@@ -223,7 +223,7 @@ void Division::divide(Crowd all) {
           return scene_.particles->spheres[place][plane->axis] < plane->at;
         });
     const auto below = static_cast<std::size_t>(above - crowd.places.begin());
-    if (below == 0 || below == crowd.places.size()) continue;  // rounding can cause this
+    if (below == 0 || below == crowd.places.size()) continue;  // rounding can put all on one side
     const auto child = static_cast<std::uint32_t>(nodes_.size());
     nodes_[crowd.node] = {
         .axis = static_cast<std::uint32_t>(plane->axis), .plane = plane->at, .below = child};

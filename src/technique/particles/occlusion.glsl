@@ -3,7 +3,7 @@
 // so the farthest depth is the smallest value.
 layout(std430) TRI_BINDING(8) readonly buffer VisibleBefore { uint visible_before[]; };  // in the previous frame
 layout(std430) TRI_BINDING(9) writeonly buffer VisibleNow { uint visible_now[]; };
-layout(std430) TRI_BINDING(10) readonly buffer Farthest { uint farthest[]; };  // bit patterns of depths, per block
+layout(std430) TRI_BINDING(10) readonly buffer Farthest { uint farthest[]; };  // farthest depth per block, as a bit pattern
 
 // Returns whether the cell is hidden. The bounding sphere of the cell's box determines which blocks the cell may
 // reach, and the box itself determines the cell's smallest distance. A hidden cell is strictly behind everything

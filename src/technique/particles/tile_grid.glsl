@@ -2,9 +2,9 @@
 // data. Include this after keys.glsl. The data are read as texels, because a software device fetches texels for all
 // lanes at once but loads from storage buffers lane by lane.
 
-#define TRI_TILE 16             // pixels along the edge of a tile
+#define TRI_TILE 16             // number of pixels along the edge of a tile
 #define TRI_SMALL_EDGE 6        // maximum edge, in pixels, of a small sphere's rectangle; llvmpipe is fastest with 6
-#define TRI_BLOCK 4             // tiles along the edge of a block that tiles_show draws as one quad
+#define TRI_BLOCK 4             // number of tiles along the edge of a block that tiles_show draws as one quad
 #define TRI_PARTICLE_BITS 28    // number of bits of an entry that contain the particle's index
 
 TRI_BINDING(13) uniform samplerBuffer camera_texels;  // spheres in camera space, indexed by particle

@@ -23,7 +23,7 @@ struct TileRound {
 };
 
 struct TileRounds {
-  std::vector<TileRound> rounds;  // together contain all cells, front to back
+  std::vector<TileRound> rounds;  // the rounds together contain all cells, front to back
   std::uint64_t entries = 0;      // largest number of (tile, large sphere) pairs in a round
   bool small = false;             // whether there may be small spheres
   bool at_once = false;           // one round only, with little overdraw; drawn by the last pass

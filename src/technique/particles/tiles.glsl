@@ -20,7 +20,7 @@
 // The backend defines TRI_ROUND, a uvec2 with the index of the first cell and the number of cells, and TRI_CULLING
 // (technique::Culling). Both may be run-time values.
 
-#define TRI_MOST_GROUPS 65535u  // along one axis of a dispatch
+#define TRI_MOST_GROUPS 65535u  // maximum number of work groups along one axis of a dispatch
 
 struct Tile {
   uint entries;   // see tile_state()
