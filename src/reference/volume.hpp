@@ -16,7 +16,8 @@ namespace triptych::reference {
 // propagates these errors along each ray.
 struct ErrorModel {
   double position_error_voxels = 0;  // error of a sample's position, per axis
-  double value_error = 0;            // absolute error of a normalised value without filter_weight_error
+  // Absolute error of a normalised value, excluding filter_weight_error.
+  double value_error = 0;
   // Relative error of every voxel, for normalised values, which are not negative.
   double voxel_rounding = 0;
   // Error of interpolation weights; it is multiplied by the spread of the 8 voxels.
