@@ -79,7 +79,7 @@ StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// A cubic lattice whose spacing equals the radius. Each inner sphere intersects 18 others, and its
+// A cubic lattice whose spacing equals the radius. Each inner sphere intersects 26 others, and its
 // visible part is bounded by the bisecting planes.
 StressScene stress_interpenetrating(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({3, 2.2, 4.1}, {0, 0, 0}, 45), stress_side, stress_side);
