@@ -11,6 +11,8 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
+#include "core/json.hpp"
 
 namespace triptych::measure {
 namespace fs = std::filesystem;
@@ -19,11 +21,11 @@ namespace {
 struct Driver {
   std::string_view id;    // the beginning of device ids; the GPU family follows
   std::string_view name;  // short name of the driver
-  std::string_view stub;  // the library with the stub of the kernel interface; empty: not needed
+  std::string_view stub;  // the library with the stub of the kernel interface
   std::string_view icd;   // beginning of the Vulkan driver's file name; empty: not a Vulkan driver
 };
 constexpr std::array<Driver, 4> drivers{{
-    {"vulkan:radv-", "radv", "", "radeon_icd"},
+    {"vulkan:radv-", "radv", "libamdgpu_noop_drm_shim.so", "radeon_icd"},
     {"vulkan:nvk-", "nvk", "libnouveau_noop_drm_shim.so", "nouveau_icd"},
     {"gl:radeonsi-", "radeonsi", "libamdgpu_noop_drm_shim.so", ""},
     {"opencl:rusticl-", "rusticl", "libamdgpu_noop_drm_shim.so", ""},
@@ -126,6 +128,23 @@ std::string find_library(std::string_view name, std::span<const std::string> ove
   return {};
 }
 
+// Returns whether this RADV driver reads RADV_FORCE_FAMILY, in which case it needs no stub. Newer
+// releases, such as Mesa 26.1, only contain a message that the variable has been removed.
+bool forces_family(const std::string& icd, std::span<const std::string> overrides) {
+  try {
+    const std::string library =
+        core::Json::parse(core::read_text(icd)).at("ICD").at("library_path");
+    const fs::path file = library.find('/') == std::string::npos
+                              ? fs::path(find_library(library, overrides))
+                              : fs::path(icd).parent_path() / library;
+    constexpr std::string_view removed = "RADV_FORCE_FAMILY=<family> has been removed";
+    const std::vector<std::byte> bytes = core::read_file(file);
+    return std::ranges::search(bytes, std::as_bytes(std::span(removed))).empty();
+  } catch (const std::exception&) {
+    return true;  // the driver's files are broken or missing, which the loader will report
+  }
+}
+
 void add_stub(const Driver& driver, const std::string& family,
               std::span<const std::string> overrides, std::vector<std::string>& environment) {
   const std::string stub = find_library(driver.stub, overrides);
@@ -136,8 +155,7 @@ void add_stub(const Driver& driver, const std::string& family,
                     driver.stub));
   }
   const std::string before = value_of("LD_PRELOAD", overrides);
-  environment.push_back(
-      fmt::format("LD_PRELOAD={}{}{}", stub, before.empty() ? "" : ":", before));
+  environment.push_back(fmt::format("LD_PRELOAD={}{}{}", stub, before.empty() ? "" : ":", before));
   if (driver.name != "nvk") {
     environment.push_back("AMDGPU_GPU_ID=" + family);
     return;
@@ -185,8 +203,10 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
     environment.push_back("VK_DRIVER_FILES=" + icd);
     environment.push_back("VK_ICD_FILENAMES=" + icd);  // read by loaders before version 1.3.207
   }
-  if (driver.name == "radv") environment.push_back("RADV_FORCE_FAMILY=" + device->family);
-  if (!driver.stub.empty()) add_stub(driver, device->family, overrides, environment);
+  const bool forced =
+      driver.name == "radv" && forces_family(find_icd(driver.icd, overrides), overrides);
+  if (forced) environment.push_back("RADV_FORCE_FAMILY=" + device->family);
+  if (!forced) add_stub(driver, device->family, overrides, environment);
   if (driver.name == "radeonsi") {
     // The driver reports statistics and disassembly for the shader stages that are listed here.
     environment.emplace_back("AMD_DEBUG=vs,tcs,tes,gs,ps,cs,asm");

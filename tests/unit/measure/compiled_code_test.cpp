@@ -2,6 +2,7 @@
 
 #include "measure/code/compiled_code.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include "measure/code/printed_kernels.hpp"
 #include "measure/code/standard_error.hpp"
 #include "measure/system/compile_only.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -19,6 +21,7 @@ namespace {
 using testing::AllOf;
 using testing::Contains;
 using testing::IsEmpty;
+using testing::IsSupersetOf;
 using testing::Key;
 using testing::Not;
 using testing::Pair;
@@ -146,6 +149,25 @@ TEST(CompileOnly, AMissingDriverIsReportedWithItsPackage) {
   } catch (const core::NotSupported& error) {
     EXPECT_THAT(std::string(error.what()), Not(IsEmpty()));
   }
+}
+
+// Mesa 26.1 removed RADV_FORCE_FAMILY, so RADV needs the stub of the kernel interface.
+TEST(CompileOnly, RadvUsesTheStubIfItsVariableHasBeenRemoved) {
+  const test::TemporaryFolder folder;
+  const std::string icd =
+      folder.write("radeon_icd.json", fmt::format(R"({{"ICD": {{"library_path": "{}"}}}})",
+                                                  (folder.path() / "libradv.so").string()));
+  const std::string stub = folder.write("libamdgpu_noop_drm_shim.so", "");
+  const std::vector<std::string> overrides{"VK_DRIVER_FILES=" + icd,
+                                           "LD_LIBRARY_PATH=" + folder.path().string()};
+  static_cast<void>(folder.write("libradv.so", "RADV_FORCE_FAMILY"));
+  const auto older = compile_only_environment("vulkan:radv-navi31", overrides);
+  EXPECT_THAT(older, Contains("RADV_FORCE_FAMILY=navi31"));
+  EXPECT_THAT(older, Not(Contains("AMDGPU_GPU_ID=navi31")));
+  static_cast<void>(folder.write("libradv.so", "RADV_FORCE_FAMILY=<family> has been removed."));
+  const auto newer = compile_only_environment("vulkan:radv-navi31", overrides);
+  EXPECT_THAT(newer, Not(Contains("RADV_FORCE_FAMILY=navi31")));
+  EXPECT_THAT(newer, IsSupersetOf({std::string("AMDGPU_GPU_ID=navi31"), "LD_PRELOAD=" + stub}));
 }
 
 // The name of a compile-only device must be the same on every machine.
