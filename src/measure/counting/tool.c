@@ -24,7 +24,7 @@
 
 #include "measure/counting/protocol.h"
 
-enum { most_functions = 8 };
+enum { most_functions = 8, page_bits = 12 };
 
 static ULong counts[TRIPTYCH_COUNTS];
 static Addr function_at[most_functions];
@@ -168,13 +168,16 @@ static IRSB* instrument(VgCallbackClosure* closure, IRSB* in, const VexGuestLayo
   (void)closure, (void)layout, (void)extents, (void)host, (void)guest_word, (void)host_word;
   IRSB* const out = deepCopyIRSBExceptStmts(in);
   UInt owner = TRIPTYCH_DRIVER;
+  Addr page_of_owner = 0; /* the page on which `owner` was found: all its code has one owner */
   UInt pending = 0;
   for (Int i = 0; i < in->stmts_used; ++i) {
     IRStmt* const statement = in->stmts[i];
     if (statement == NULL || statement->tag == Ist_NoOp) continue;
     if (statement->tag == Ist_IMark) {
       const Addr address = statement->Ist.IMark.addr;
-      const UInt its_owner = owner_at(address);
+      const Addr page = address >> page_bits;
+      const UInt its_owner = page == page_of_owner ? owner : owner_at(address);
+      page_of_owner = page;
       if (its_owner != owner) {
         add(out, owner, pending);
         pending = 0;
