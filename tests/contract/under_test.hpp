@@ -4,13 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <functional>
 #include <memory>
 
 #include "measure/contract/backend.hpp"
 #include "record/one_per_driver.hpp"
 #include "scene/generators.hpp"
+#include "tests/support/everything.hpp"
 
 namespace triptych::contract {
 
@@ -39,12 +39,7 @@ inline void on_every_device(const std::function<void(measure::Device&)>& body) {
   on_devices(body, false);
 }
 
-// Returns whether the nightly run requests every combination on every device
-// (TRIPTYCH_EVERY_DEVICE).
-inline bool everything() {
-  const char* const every = std::getenv("TRIPTYCH_EVERY_DEVICE");
-  return every != nullptr && *every != '\0';
-}
+using test::everything;
 
 // Runs `body` on one device per driver, or on every device if everything() is true. Used for
 // results that depend only on the driver and the backend, not on how a device is opened.

@@ -1,5 +1,6 @@
 #include "tests/layer/chain.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <map>
@@ -99,9 +100,10 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
                                                VkInstance* instance) {
   auto* loader = loader_info<VkLayerInstanceCreateInfo>(
       info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
-  if (!known_limit(change().name) && !known_fault(change().name)) {
-    std::fprintf(stderr, "layer: TRIPTYCH_LAYER=%s is neither a limit nor a fault\n",
-                 change().name.c_str());
+  const bool only_limits = std::ranges::all_of(changes(), known_limit, &Change::name);
+  if (!only_limits && !known_fault(requested())) {
+    std::fprintf(stderr, "layer: TRIPTYCH_LAYER=%s is neither a list of limits nor a fault\n",
+                 requested().c_str());
     return VK_ERROR_INITIALIZATION_FAILED;
   }
   const PFN_vkGetInstanceProcAddr below = loader->u.pLayerInfo->pfnNextGetInstanceProcAddr;
@@ -127,7 +129,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_device(VkPhysicalDevice physical,
                                              const VkAllocationCallbacks* allocator,
                                              VkDevice* device) {
   if (info->pEnabledFeatures != nullptr && enables_hidden(*info->pEnabledFeatures)) {
-    refuse(std::string("vkCreateDevice: ") + change().name);
+    refuse("vkCreateDevice: " + requested());
     return VK_ERROR_FEATURE_NOT_PRESENT;
   }
   auto* loader = loader_info<VkLayerDeviceCreateInfo>(info->pNext,
@@ -163,7 +165,8 @@ PFN_vkVoidFunction instance_command(VkInstance instance, const char* name);
 PFN_vkVoidFunction device_command(VkDevice device, const char* name);
 
 PFN_vkVoidFunction own(std::string_view name) {
-  const std::string_view wanted = known_limit(change().name) ? std::string_view() : change().name;
+  const std::string_view first = changes().front().name;
+  const std::string_view wanted = known_limit(first) ? std::string_view() : first;
   for (const Hook& each : submission_hooks()) {
     if (each.change == wanted && each.command == name) return each.function;
   }

@@ -56,11 +56,6 @@ constexpr std::array<std::string_view, 15> others{
     "memoryHeapSize",          "emptyHeap",
     "maxMemoryAllocationSize"};
 
-template <class Table>
-auto find(const Table& table) {
-  return std::ranges::find_if(table, [](const auto& each) { return asked(each.first); });
-}
-
 VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical,
                                       VkPhysicalDeviceProperties* properties) {
   next<PFN_vkGetPhysicalDeviceProperties>(physical, "vkGetPhysicalDeviceProperties")(physical,
@@ -71,13 +66,14 @@ VKAPI_ATTR void VKAPI_CALL properties(VkPhysicalDevice physical,
 // Gives the device a name for which there are no baselines. If a fault is simulated, changes only
 // the driver version, to one for which there are no baselines.
 void rename(VkPhysicalDeviceDriverProperties& driver) {
-  if (!known_limit(change().name)) {
-    driver.driverInfo[change().name.copy(driver.driverInfo, VK_MAX_DRIVER_INFO_SIZE - 1)] = '\0';
+  const std::string& name = changes().front().name;
+  if (!known_limit(name)) {
+    driver.driverInfo[name.copy(driver.driverInfo, VK_MAX_DRIVER_INFO_SIZE - 1)] = '\0';
     return;
   }
   driver.driverID = {};
-  constexpr std::string_view name = "layer";
-  driver.driverName[name.copy(driver.driverName, name.size())] = '\0';
+  constexpr std::string_view layer = "layer";
+  driver.driverName[layer.copy(driver.driverName, layer.size())] = '\0';
 }
 
 VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical,
@@ -90,7 +86,7 @@ VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical,
     if (asked("maxMemoryAllocationSize") &&
         each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES) {
       reinterpret_cast<VkPhysicalDeviceMaintenance3Properties*>(each)->maxMemoryAllocationSize =
-          asked_number();
+          asked_number("maxMemoryAllocationSize");
     }
     if (each->sType != VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES) continue;
     rename(*reinterpret_cast<VkPhysicalDeviceDriverProperties*>(each));
@@ -134,10 +130,11 @@ VKAPI_ATTR VkResult VKAPI_CALL image_properties(VkPhysicalDevice physical, VkFor
       physical, "vkGetPhysicalDeviceImageFormatProperties")(physical, format, type, tiling, usage,
                                                             flags, properties);
   const std::array names{"maxImageDimension1D", "maxImageDimension2D", "maxImageDimension3D"};
-  if (asked(names.at(static_cast<std::size_t>(type)))) {
+  const char* const name = names.at(static_cast<std::size_t>(type));
+  if (asked(name)) {
     for (std::uint32_t* side : {&properties->maxExtent.width, &properties->maxExtent.height,
                                 &properties->maxExtent.depth}) {
-      *side = std::min(*side, asked_number());
+      *side = std::min(*side, asked_number(name));
     }
   }
   return result;
@@ -154,21 +151,25 @@ bool known_limit(std::string_view name) {
 }
 
 void lower(VkPhysicalDeviceLimits& limits) {
-  if (const auto* found = find(numbers); found != numbers.end()) {
-    limits.*found->second = asked_number();
+  for (const auto& [name, limit] : numbers) {
+    if (asked(name)) limits.*limit = asked_number(name);
   }
   if (asked("maxComputeWorkGroupSize")) {
-    for (std::uint32_t& side : limits.maxComputeWorkGroupSize) side = asked_number();
+    for (std::uint32_t& side : limits.maxComputeWorkGroupSize)
+      side = asked_number("maxComputeWorkGroupSize");
   }
   if (asked("maxComputeWorkGroupCount")) {
-    for (std::uint32_t& side : limits.maxComputeWorkGroupCount) side = asked_number();
+    for (std::uint32_t& side : limits.maxComputeWorkGroupCount)
+      side = asked_number("maxComputeWorkGroupCount");
   }
   if (asked("maxFramebufferWidth")) {
-    limits.maxFramebufferWidth = limits.maxFramebufferHeight = asked_number();
+    limits.maxFramebufferWidth = limits.maxFramebufferHeight = asked_number("maxFramebufferWidth");
   }
-  if (asked("pointSizeRange")) limits.pointSizeRange[1] = static_cast<float>(change().value);
+  if (asked("pointSizeRange")) {
+    limits.pointSizeRange[1] = static_cast<float>(asked_value("pointSizeRange"));
+  }
   if (asked("pointSizeGranularity")) {
-    limits.pointSizeGranularity = static_cast<float>(change().value);
+    limits.pointSizeGranularity = static_cast<float>(asked_value("pointSizeGranularity"));
   }
   if (asked("timestampComputeAndGraphics") || asked("timestampValidBits")) {
     limits.timestampComputeAndGraphics = VK_FALSE;
@@ -176,14 +177,15 @@ void lower(VkPhysicalDeviceLimits& limits) {
 }
 
 void lower(VkPhysicalDeviceFeatures& features) {
-  if (const auto* found = find(features_named); found != features_named.end()) {
-    features.*found->second = VK_FALSE;
+  for (const auto& [name, feature] : features_named) {
+    if (asked(name)) features.*feature = VK_FALSE;
   }
 }
 
 bool enables_hidden(const VkPhysicalDeviceFeatures& features) {
-  const auto* found = find(features_named);
-  return found != features_named.end() && features.*found->second == VK_TRUE;
+  return std::ranges::any_of(features_named, [&](const auto& each) {
+    return asked(each.first) && features.*each.second == VK_TRUE;
+  });
 }
 
 std::span<const Hook> description_hooks() {

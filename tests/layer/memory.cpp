@@ -24,7 +24,7 @@ VKAPI_ATTR void VKAPI_CALL memory_properties(VkPhysicalDevice physical,
                                              VkPhysicalDeviceMemoryProperties* memory) {
   next<PFN_vkGetPhysicalDeviceMemoryProperties>(physical, "vkGetPhysicalDeviceMemoryProperties")(
       physical, memory);
-  if (asked("memoryHeapSize")) memory->memoryHeaps[0].size = asked_number();
+  if (asked("memoryHeapSize")) memory->memoryHeaps[0].size = asked_number("memoryHeapSize");
   if (asked("emptyHeap")) {
     // A heap of 0 bytes comes first, as in the lists of some drivers.
     memory->memoryHeapCount = memory->memoryTypeCount = 2;
@@ -61,10 +61,11 @@ VKAPI_ATTR void VKAPI_CALL image_needs(VkDevice device, VkImage image,
 VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
                                         const VkAllocationCallbacks* allocator,
                                         VkDeviceMemory* memory) {
-  if (asked("memoryHeapSize") && info->allocationSize > asked_number()) {
+  if (asked("memoryHeapSize") && info->allocationSize > asked_number("memoryHeapSize")) {
     return refuse("vkAllocateMemory: more than the size of the heap");
   }
-  if (asked("maxMemoryAllocationSize") && info->allocationSize > asked_number()) {
+  if (asked("maxMemoryAllocationSize") &&
+      info->allocationSize > asked_number("maxMemoryAllocationSize")) {
     return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   }
   if (asked("emptyHeap") && info->memoryTypeIndex == 0) {

@@ -38,7 +38,7 @@ VKAPI_ATTR void VKAPI_CALL families(VkPhysicalDevice physical, std::uint32_t* co
   for (std::uint32_t family = 0; family < all.size(); ++family) {
     if (!draws(family)) all[family].queueFlags &= ~VkQueueFlags{VK_QUEUE_GRAPHICS_BIT};
     const bool no_clock = asked("timestampValidBits") || (one_more() && family == 0);
-    if (no_clock) all[family].timestampValidBits = asked_number();
+    if (no_clock) all[family].timestampValidBits = asked_number("timestampValidBits");
   }
   if (properties == nullptr) {
     *count = static_cast<std::uint32_t>(all.size());
@@ -72,7 +72,7 @@ VKAPI_ATTR void VKAPI_CALL begin_pass(VkCommandBuffer commands, const VkRenderPa
 
 VKAPI_ATTR void VKAPI_CALL write_timestamp(VkCommandBuffer commands, VkPipelineStageFlagBits stage,
                                            VkQueryPool pool, std::uint32_t query) {
-  if (asked("timestampValidBits") && asked_number() == 0) {
+  if (asked("timestampValidBits") && asked_number("timestampValidBits") == 0) {
     refuse("vkCmdWriteTimestamp: timestampValidBits = 0");
   }
   next<PFN_vkCmdWriteTimestamp>(commands, "vkCmdWriteTimestamp")(commands, stage, pool, query);

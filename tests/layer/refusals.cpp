@@ -20,8 +20,8 @@ std::set<VkSampler> linear;
 
 // Returns whether `used` exceeds the lowered limit, and reports it if so.
 bool exceeds(std::string_view limit, std::uint64_t used, std::string_view command) {
-  if (!asked(limit) || used <= asked_number()) return false;
-  refuse(fmt::format("{}: {} exceeds {} = {}", command, used, limit, asked_number()));
+  if (!asked(limit) || used <= asked_number(limit)) return false;
+  refuse(fmt::format("{}: {} exceeds {} = {}", command, used, limit, asked_number(limit)));
   return true;
 }
 

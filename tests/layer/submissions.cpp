@@ -39,13 +39,13 @@ bool is_left_out(VkCommandBuffer commands, int number) {
     const std::lock_guard lock(mutex);
     return !executed.insert(commands).second;
   }
-  return asked("lost_frames") && number % static_cast<int>(asked_number()) == 0;
+  return asked("lost_frames") && number % static_cast<int>(asked_number("lost_frames")) == 0;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count,
                                       const VkSubmitInfo* submits, VkFence fence) {
   const int number = ++submissions;
-  if (asked("lost_after") && number > static_cast<int>(asked_number())) {
+  if (asked("lost_after") && number > static_cast<int>(asked_number("lost_after"))) {
     return VK_ERROR_DEVICE_LOST;
   }
   std::vector<VkSubmitInfo> changed(submits, submits + count);
@@ -58,14 +58,14 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count,
 }
 
 [[noreturn]] void crash() {
-  std::fprintf(stderr, "layer: crashing as TRIPTYCH_LAYER=%s says\n", change().name.c_str());
+  std::fprintf(stderr, "layer: crashing as TRIPTYCH_LAYER=%s says\n", requested().c_str());
   std::signal(SIGSEGV, SIG_DFL);
   std::raise(SIGSEGV);
   std::abort();
 }
 
 [[noreturn]] void hang() {
-  std::fprintf(stderr, "layer: hanging as TRIPTYCH_LAYER=%s says\n", change().name.c_str());
+  std::fprintf(stderr, "layer: hanging as TRIPTYCH_LAYER=%s says\n", requested().c_str());
   for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
