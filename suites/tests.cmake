@@ -3,8 +3,6 @@ set(test_folder ${PROJECT_BINARY_DIR}/suite_tests)
 file(MAKE_DIRECTORY ${test_folder})
 file(GENERATE OUTPUT ${test_folder}/discover.cmake CONTENT
 "set(TRIPTYCH_PROGRAM [=[$<TARGET_FILE:triptych>]=])
-set(TRIPTYCH_PLANS volume/quick volume/real particles/quick particles/real)
-set(TRIPTYCH_LARGE_PLANS volume/cost volume/stress volume/accuracy particles/cost particles/stress particles/accuracy)
 set(TRIPTYCH_TEST_FOLDER [=[${test_folder}]=])
 include([=[${PROJECT_SOURCE_DIR}/suites/discover_tests.cmake]=])
 ")

@@ -10,6 +10,7 @@
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "app/verdicts.hpp"
+#include "core/glob.hpp"
 #include "core/output_files.hpp"
 #include "measure/worker/own_program.hpp"
 #include "report/ci/ctest_answer.hpp"
@@ -24,13 +25,17 @@ struct TestsArguments {
   std::vector<std::string> plans;
   std::vector<std::string>
       large;  // plans that are measured on only one of several devices with the same driver
+  std::vector<std::string> devices;
   std::string out;
   std::string folder;
 };
 
 core::ExitCode list_tests(const TestsArguments& arguments) {
   const Registry registry = make_registry();
-  const measure::Listing listing = registry.devices({});
+  measure::Listing listing = registry.devices(arguments.devices);
+  std::erase_if(listing.devices, [&](const record::Device& device) {
+    return !arguments.devices.empty() && !core::any_glob_matches(arguments.devices, device.id);
+  });
   std::vector<report::PlanTests> tests;
   const auto add = [&](const std::string& plan, bool one_per_driver) {
     const measure::Plan loaded = measure::load_plan(plan, {}, registry.find_suite());
@@ -105,6 +110,8 @@ void add_test_commands(Commands& commands) {
   tests.add_option("PLAN", listed.plans, "Plans to test: YAML files, or SUITE/PLAN")->required();
   tests.add_option("--one-per-driver", listed.large,
                    "Measure this plan on only one device per driver (repeatable)");
+  tests.add_option("--device", listed.devices,
+                   "Use only devices that match this glob (repeatable)");
   tests.add_option("--out", listed.out, "Write the CTest file to this path")->required();
   tests.add_option("--folder", listed.folder, "Folder to which the tests write their stores")
       ->required();

@@ -65,6 +65,7 @@ std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device
   const std::vector<record::Device> devices =
       one_per_driver ? record::one_per_driver(all)
                      : std::vector<record::Device>(all.begin(), all.end());
+  if (devices.empty()) return {};
   std::vector<Test> tests{{.name = stem + ".start",
                            .command = {"test-start", "--store", store},
                            .labels = {suite, "device"},
