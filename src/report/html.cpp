@@ -156,13 +156,15 @@ std::vector<bool> columns_of_quantities(const Rows& rows) {
 }  // namespace
 
 Html table(const Rows& rows, std::string_view css_class) {
-  Html text = markup("<div class=\"scroll\"><table class=\"{}\">\n", css_class);
+  // A wide table scrolls, so the keyboard must be able to reach it.
+  Html text = markup("<div class=\"scroll\" tabindex=\"0\"><table class=\"{}\">\n", css_class);
   const std::vector<bool> numbers = columns_of_quantities(rows);
   bool head = true;
   for (const TableRow& row : rows) {
     text += markup("<tr>");
     for (std::size_t i = 0; i < row.size(); ++i) {
-      text += markup("<{0}{1}>{2}</{0}>", head ? "th" : "td",
+      const bool heads = head && !row[i].html().text().empty();
+      text += markup("<{0}{1}>{2}</{0}>", heads ? "th" : "td",
                      numbers.at(i) ? markup(" class=\"number\"") : Html(), row[i].html());
     }
     text += markup("</tr>\n");

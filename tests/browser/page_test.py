@@ -3,7 +3,8 @@ screen reader.
 
   TRIPTYCH_PROGRAM=build/release/src/app/triptych tests/browser/page_test.py [TEST…]
 
-With TRIPTYCH_PICTURES=FOLDER, it leaves screenshots in that folder.
+With TRIPTYCH_PICTURES=FOLDER, it leaves screenshots in that folder. With TRIPTYCH_AXE=FILE, it also checks the pages with
+axe-core, which is not a Debian package: `npm pack axe-core` downloads an archive that contains axe.min.js.
 """
 import itertools
 import os
@@ -69,6 +70,19 @@ class Everywhere(PageTest):
                 self.assertIn(("slider", "Border between the left and the right image"), told)
             named = {"button", "link", "image", "img", "search", "dialog", "DisclosureTriangle"}
             self.assertEqual([role for role, text in told if role in named and not text], [], name)
+
+    @unittest.skipUnless(os.environ.get("TRIPTYCH_AXE"), "TRIPTYCH_AXE does not name axe.min.js")
+    def test_axe_finds_nothing_serious(self):
+        with open(os.environ["TRIPTYCH_AXE"], encoding="utf-8") as file:
+            axe = file.read()
+        for name, ((width, height), dark) in itertools.product(made, WAYS):
+            with self.subTest(page=name, width=width, dark=dark):
+                page = self.opened(name, (width, height), dark)
+                page.value("looks.openAll()")
+                page.value(f"{axe};0")
+                self.assertEqual(page.value("""axe.run(document, {resultTypes: ['violations']}).then(({violations}) =>
+                    violations.filter(each => ['serious', 'critical'].includes(each.impact))
+                    .map(each => [each.id, each.nodes[0].html]))"""), [])
 
     # The Content-Security-Policy allows only the script whose hash it contains.
     def test_a_planted_script_does_not_run(self):

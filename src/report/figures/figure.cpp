@@ -351,7 +351,7 @@ Html Figure::svg() const {
 Html figures(std::span<const Titled> all) {
   Html text = markup("<div class=\"figures\">");
   for (const Titled& each : all) {
-    const Html title = each.title.empty() ? Html() : markup("<h5>{}</h5>", each.title);
+    const Html title = each.title.empty() ? Html() : markup("<h4>{}</h4>", each.title);
     text += markup("<div class=\"plot\">{}{}</div>\n", title, each.svg);
   }
   return text + markup("</div>\n");

@@ -23,13 +23,13 @@ using core::Json;
 // All tags that Triptych's pages contain. Any other tag must have come from an unescaped string.
 const std::set<std::string>& known_tags() {
   static const std::set<std::string> tags{
-      "circle", "dd",     "dl",      "dt",      "a",    "article",    "b",      "body",
-      "br",     "button", "details", "dialog",  "div",  "figcaption", "figure", "form",
-      "g",      "h1",     "h2",      "h3",      "h4",   "h5",         "head",   "header",
-      "html",   "img",    "input",   "label",   "li",   "link",       "main",   "meta",
-      "ol",     "option", "output",  "p",       "path", "pre",        "rect",   "section",
-      "select", "span",   "style",   "summary", "svg",  "code",       "mark",   "table",
-      "td",     "text",   "th",      "title",   "tr",   "wbr",        "script"};
+      "circle", "dd",     "dl",      "dt",     "a",    "article",    "b",       "body",
+      "br",     "button", "details", "dialog", "div",  "figcaption", "figure",  "form",
+      "g",      "h1",     "h2",      "h3",     "h4",   "head",       "header",  "html",
+      "img",    "input",  "label",   "li",     "link", "main",       "meta",    "ol",
+      "option", "output", "p",       "path",   "pre",  "rect",       "section", "select",
+      "span",   "style",  "summary", "svg",    "code", "mark",       "table",   "td",
+      "text",   "th",     "title",   "tr",     "wbr",  "script"};
   return tags;
 }
 bool is_known_attribute(const std::string& name) {
