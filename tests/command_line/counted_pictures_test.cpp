@@ -20,8 +20,8 @@ class CountedPictures : public testing::Test {
   // Returns the records of a plan with these checks; empty if the device or the counter is missing.
   std::vector<record::Record> counted(const std::string& name, const std::string& checks) {
     program.write(name + ".yaml",
-                  fmt::format("suite: volume\nchecks: {}\ndata: [generate:mandelbulb:48]\n"
-                              "step: [1, 0.5]\nviewport: [32]\n",
+                  fmt::format("suite: volume\nchecks: {}\ndata: [generate:mandelbulb:16]\n"
+                              "step: [1, 0.5]\nviewport: [16]\n",
                               checks));
     const Result run = program.run(
         fmt::format("run {0}.yaml --device {1} --store {0}.sqlite", name, counted_device));
