@@ -330,10 +330,10 @@ core::ExitCode validate(const ValidateArguments& arguments) {
 }  // namespace
 
 void add_validate_command(Commands& commands) {
-  auto [command, arguments] = commands.add(
-      "validate",
-      "Check everything that a new driver must get right: images, amount of work, stress scenes",
-      validate);
+  auto [command, arguments] = commands.add("validate",
+                                           "Check everything that a new driver must get right: the "
+                                           "images, the work counters and the stress scenes",
+                                           validate);
   add_example(command, "triptych validate --device vulkan:lavapipe --out validation");
   command
       .add_option("--device", arguments.devices,
@@ -341,7 +341,7 @@ void add_validate_command(Commands& commands) {
       ->required();
   command
       .add_option("--out", arguments.out,
-                  "Write the store and the same files as `gate --out` to this folder")
+                  "Write to this folder: the store, and the same files that `gate --out` writes")
       ->capture_default_str();
   command.add_option("--junit", arguments.junit,
                      "Write a JUnit XML report for all plans to this file");

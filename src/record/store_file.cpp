@@ -192,7 +192,8 @@ void throw_store_error(const std::filesystem::path& file, const SQLite::Exceptio
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
       throw core::IoError(
-          fmt::format("{}: another process has locked the store for too long ({}); try again when "
+          fmt::format("{}: gave up waiting for the lock on the store, which another process holds "
+                      "({}); try again when "
                       "that process has finished",
                       name, what));
     default:

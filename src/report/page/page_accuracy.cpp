@@ -207,13 +207,15 @@ constexpr Beside beside_time[]{
     {Cost::instructions, "",
      "Error against the number of instructions per frame, in device code and in the driver."},
     {Cost::fetched, "Bytes fetched against error",
-     "Error against the bytes that device code loads into a simulated cache of 32 KiB (its cache "
-     "misses)."},
+     "Image error plotted against the bytes that the device code fetches on misses in a simulated "
+     "cache of 32 KiB."},
     {Cost::memory, "Memory against error",
-     "Error against the bytes that a configuration allocates on the device: data, tables, bricks "
+     "Image error plotted against the bytes that a configuration allocates on the device: data, "
+     "tables, bricks "
      "and images. Packed cells need four or eight times as much memory as the voxels."},
     {Cost::energy, "Energy against error",
-     "Error against the energy per frame according to the machine’s meters, which also measure "
+     "Image error plotted against the energy per frame according to the machine’s meters, which "
+     "also measure "
      "idle power and other programs."}};
 
 Html charts_beside(const std::vector<AccuracyScene>& scenes) {

@@ -97,7 +97,7 @@ std::string sentence_of(const Difference& difference) {
       return "the images differ, although the device and the device code are the same: " +
              other_bits(difference);
     case DifferenceCause::two_counters:
-      return fmt::format("not comparable: the counts in a come from {}, those in b from {}",
+      return fmt::format("not comparable: the counts in 'a' come from {}, those in 'b' from {}",
                          difference.facts.at("a"), difference.facts.at("b"));
     case DifferenceCause::values_changed:
       return all_changes(difference);
