@@ -27,7 +27,7 @@ constexpr GLuint first_shown_texels = 16;
 // The passes that build the hierarchy, in the same order as `build_passes`.
 enum class BuildPass : std::uint8_t { keys, count, rows, totals, scatter, leaves, level };
 constexpr std::array<std::string_view, 7> build_passes{"keys",    "count",  "rows", "totals",
-                                                 "scatter", "leaves", "level"};
+                                                       "scatter", "leaves", "level"};
 // Flags in TRI_STEP.w of bvh.comp.glsl.
 constexpr GLuint continues_beams = 1;
 constexpr GLuint leaves_beams = 2;
@@ -42,8 +42,8 @@ Program tree_program(const Api& gl, const ParticleConstants& constants,
                      std::vector<std::string>& sources) {
   std::vector<std::string_view> all{"box_math.h", "hierarchy.glsl"};
   all.insert(all.end(), files.begin(), files.end());
-  const std::vector<Stage> stages = particle_stages(
-      gl, constants, {{GL_COMPUTE_SHADER, all, std::string(tree_defines)}});
+  const std::vector<Stage> stages =
+      particle_stages(gl, constants, {{GL_COMPUTE_SHADER, all, std::string(tree_defines)}});
   sources.push_back(stages.front().source);
   return link(gl, stages);
 }
@@ -51,8 +51,10 @@ Program tree_program(const Api& gl, const ParticleConstants& constants,
 Program build_program(const Api& gl, ParticleConstants constants, BuildPass pass,
                       std::vector<std::string>& sources) {
   constants.count = false;  // the build passes have no counters
-  const std::string main_file = fmt::format("hierarchy_{}.comp.glsl", build_passes.at(static_cast<std::size_t>(pass)));
-  if (pass == BuildPass::keys) return tree_program(gl, constants, {"storage.glsl", main_file}, sources);
+  const std::string main_file =
+      fmt::format("hierarchy_{}.comp.glsl", build_passes.at(static_cast<std::size_t>(pass)));
+  if (pass == BuildPass::keys)
+    return tree_program(gl, constants, {"storage.glsl", main_file}, sources);
   if (pass == BuildPass::leaves) {
     return tree_program(gl, constants, {"storage.glsl", "sphere_box.glsl", main_file}, sources);
   }

@@ -10,7 +10,8 @@ namespace triptych::gl_backend {
 
 // Creates a buffer texture with the format GL_R32UI or GL_RGBA32F, through which shaders read the
 // buffer. Throws core::NotSupported if the buffer has more texels than the device allows.
-[[nodiscard]] Texture texels_of(const Api& gl, const Buffer& buffer, std::size_t words, GLenum format);
+[[nodiscard]] Texture texels_of(const Api& gl, const Buffer& buffer, std::size_t words,
+                                GLenum format);
 
 // The buffers that the passes of technique/particles/hierarchy.glsl write and read.
 class HierarchyData {

@@ -61,12 +61,14 @@ Programs make_programs(const Api& gl, const ParticleConstants& constants, Cullin
   }
   ParticleConstants showing = constants;
   showing.count = false;
-  programs.show = program(
-      {{GL_VERTEX_SHADER,
-        {"keys.glsl", "tile_grid.glsl", "tiles_show.vert.glsl"},
-        defines + "#define TRI_INSTANCE gl_InstanceID\n#define TRI_CORNER gl_VertexID\n"},
-       {GL_FRAGMENT_SHADER, {"keys.glsl", "tile_grid.glsl", "storage.glsl", "tiles_show.frag.glsl"}, defines}},
-      showing);
+  programs.show =
+      program({{GL_VERTEX_SHADER,
+                {"keys.glsl", "tile_grid.glsl", "tiles_show.vert.glsl"},
+                defines + "#define TRI_INSTANCE gl_InstanceID\n#define TRI_CORNER gl_VertexID\n"},
+               {GL_FRAGMENT_SHADER,
+                {"keys.glsl", "tile_grid.glsl", "storage.glsl", "tiles_show.frag.glsl"},
+                defines}},
+              showing);
   return programs;
 }
 

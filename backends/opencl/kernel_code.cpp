@@ -31,8 +31,7 @@ std::map<std::string, double> work_group_info(const Session& session, const cl::
   const auto number = [](auto value) { return static_cast<double>(value); };
   const cl::Device& device = session.device;
   return {
-      {"Private memory",
-       number(kernel.getWorkGroupInfo<CL_KERNEL_PRIVATE_MEM_SIZE>(device))},
+      {"Private memory", number(kernel.getWorkGroupInfo<CL_KERNEL_PRIVATE_MEM_SIZE>(device))},
       {"Local memory", number(kernel.getWorkGroupInfo<CL_KERNEL_LOCAL_MEM_SIZE>(device))},
       {"Work group size", number(kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(device))},
       {"Preferred multiple",
@@ -48,7 +47,8 @@ void add_logged(const std::string& log, const std::string& kernel,
   if (at == std::string::npos) return;
   const std::size_t used = log.find("Used ", at);
   if (used == std::string::npos) return;
-  for (const auto& [name, value] : measure::parse_counts(log.substr(at, log.find('\n', used) - at))) {
+  for (const auto& [name, value] :
+       measure::parse_counts(log.substr(at, log.find('\n', used) - at))) {
     statistics[name] = value;
   }
 }

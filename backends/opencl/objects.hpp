@@ -56,8 +56,8 @@ class Queue {
   void enqueueWriteImage(const cl::Image& image, cl_bool blocking,
                          const std::array<cl::size_type, 3>& origin,
                          const std::array<cl::size_type, 3>& region, std::size_t row_pitch,
-                         std::size_t slice_pitch, const void* data,
-                         const Events* after = nullptr, cl::Event* event = nullptr) const {
+                         std::size_t slice_pitch, const void* data, const Events* after = nullptr,
+                         cl::Event* event = nullptr) const {
     if (!executes_) return;
     queue_.enqueueWriteImage(image, blocking, origin, region, row_pitch, slice_pitch, data, after,
                              event);

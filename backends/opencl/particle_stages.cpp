@@ -151,7 +151,8 @@ void ParticleStages::add_expansion(const ParticlePrograms& programs, const Pass&
   const cl::NDRange one(1);
   const cl::NDRange chunks(table_.chunks);
   const auto add = [&](const char* kernel, const auto&... arguments) {
-    to.push_back(make_launch(programs.sprites, kernel, chunks, one, data_.parameters, arguments...));
+    to.push_back(
+        make_launch(programs.sprites, kernel, chunks, one, data_.parameters, arguments...));
   };
   switch (sprite_) {
     case Sprite::expanded_quad:

@@ -6,7 +6,7 @@
 namespace triptych::opencl_backend {
 
 std::unique_ptr<measure::Prepared> prepare_quad_tess(const Session& session, Programs& programs,
-                                                    const measure::ParticleWork& work) {
+                                                     const measure::ParticleWork& work) {
   return std::make_unique<ParticleFrames>(session, programs, work, Sprite::evaluated_quad);
 }
 

@@ -14,11 +14,10 @@ struct Layout {
   std::string definition;  // equal for layouts that are defined in the same way
 };
 // `push_bytes` is the size of the push constant block of these stages.
-[[nodiscard]] Layout make_layout(const Gpu& gpu,
-                                 vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings,
-                                 std::uint32_t push_bytes = 0,
-                                 vk::ShaderStageFlags push_stages =
-                                     vk::ShaderStageFlagBits::eCompute);
+[[nodiscard]] Layout make_layout(
+    const Gpu& gpu, vk::ArrayProxy<const vk::DescriptorSetLayoutBinding> bindings,
+    std::uint32_t push_bytes = 0,
+    vk::ShaderStageFlags push_stages = vk::ShaderStageFlagBits::eCompute);
 
 // Creates a pool for this many sets. Each set has up to two uniform buffers, two textures, one
 // storage image, and the given numbers of storage buffers, texel buffers and acceleration

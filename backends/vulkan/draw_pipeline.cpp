@@ -71,8 +71,7 @@ std::string key_of(const DrawState& state, const Layout& layout, const Specializ
 
 vk::raii::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout,
                                  const vk::raii::RenderPass& pass, const DrawState& state,
-                                 const Specialization& constants,
-                                 vk::PipelineCreateFlags flags) {
+                                 const Specialization& constants, vk::PipelineCreateFlags flags) {
   const Stages stages(gpu, state.stages, constants);
   const vk::PipelineVertexInputStateCreateInfo vertices{
       .vertexBindingDescriptionCount = static_cast<std::uint32_t>(state.vertex_bindings.size()),

@@ -46,19 +46,19 @@ void ExtensionRequest::ask_for_rays(const vk::raii::PhysicalDevice& physical) {
   const bool query = offered.contains(VK_KHR_RAY_QUERY_EXTENSION_NAME);
   const bool pipeline = offered.contains(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
   const auto has =
-      physical.getFeatures2<vk::PhysicalDeviceFeatures2,
-                            vk::PhysicalDeviceBufferDeviceAddressFeatures,
-                            vk::PhysicalDeviceAccelerationStructureFeaturesKHR>();
+      physical
+          .getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceBufferDeviceAddressFeatures,
+                        vk::PhysicalDeviceAccelerationStructureFeaturesKHR>();
   if (has.get<vk::PhysicalDeviceBufferDeviceAddressFeatures>().bufferDeviceAddress == VK_FALSE ||
       has.get<vk::PhysicalDeviceAccelerationStructureFeaturesKHR>().accelerationStructure ==
           VK_FALSE ||
       !(query || pipeline)) {
     return;
   }
-  const auto limits =
-      physical.getProperties2<vk::PhysicalDeviceProperties2,
-                              vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
-          .get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
+  const auto limits = physical
+                          .getProperties2<vk::PhysicalDeviceProperties2,
+                                          vk::PhysicalDeviceAccelerationStructurePropertiesKHR>()
+                          .get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
   extensions_.acceleration_structure = true;
   extensions_.scratch_alignment =
       std::max(limits.minAccelerationStructureScratchOffsetAlignment, 1U);
@@ -81,11 +81,10 @@ void ExtensionRequest::ask_for_rays(const vk::raii::PhysicalDevice& physical) {
                              .getFeatures2<vk::PhysicalDeviceFeatures2,
                                            vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>()
                              .get<vk::PhysicalDeviceRayTracingPipelineFeaturesKHR>();
-    const auto table =
-        physical
-            .getProperties2<vk::PhysicalDeviceProperties2,
-                            vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>()
-            .get<vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();
+    const auto table = physical
+                           .getProperties2<vk::PhysicalDeviceProperties2,
+                                           vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>()
+                           .get<vk::PhysicalDeviceRayTracingPipelinePropertiesKHR>();
     extensions_.ray_pipeline = feature.rayTracingPipeline == VK_TRUE;
     extensions_.group_handle_bytes = table.shaderGroupHandleSize;
     extensions_.group_base_alignment = std::max(table.shaderGroupBaseAlignment, 1U);
@@ -101,11 +100,10 @@ void ExtensionRequest::ask_for_meshes(const vk::raii::PhysicalDevice& physical) 
       physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceMeshShaderFeaturesEXT>()
           .get<vk::PhysicalDeviceMeshShaderFeaturesEXT>();
   if (feature.meshShader == VK_FALSE || feature.taskShader == VK_FALSE) return;
-  const auto limits =
-      physical
-          .getProperties2<vk::PhysicalDeviceProperties2,
-                          vk::PhysicalDeviceMeshShaderPropertiesEXT>()
-          .get<vk::PhysicalDeviceMeshShaderPropertiesEXT>();
+  const auto limits = physical
+                          .getProperties2<vk::PhysicalDeviceProperties2,
+                                          vk::PhysicalDeviceMeshShaderPropertiesEXT>()
+                          .get<vk::PhysicalDeviceMeshShaderPropertiesEXT>();
   extensions_.mesh_shader = true;
   extensions_.mesh_vertices = limits.maxMeshOutputVertices;
   extensions_.mesh_primitives = limits.maxMeshOutputPrimitives;

@@ -85,8 +85,8 @@ Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled, bool execu
   const ExtensionRequest request(physical);
   std::vector<const char*> names = request.names();
   if (reports) names.push_back(VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTENSION_NAME);
-  vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR info{
-      .pNext = request.features(), .pipelineExecutableInfo = VK_TRUE};
+  vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR info{.pNext = request.features(),
+                                                                 .pipelineExecutableInfo = VK_TRUE};
   vk::raii::Device device(
       physical,
       vk::DeviceCreateInfo{.pNext = reports ? &info : request.features(),

@@ -18,14 +18,14 @@ struct Extensions {
   bool ray_query = false;
   bool ray_pipeline = false;
   bool mesh_shader = false;
-  std::uint32_t scratch_alignment = 1;      // minAccelerationStructureScratchOffsetAlignment
-  std::uint64_t most_boxes = 0;             // maxPrimitiveCount
-  std::uint32_t group_handle_bytes = 0;     // shaderGroupHandleSize
-  std::uint32_t group_base_alignment = 1;   // shaderGroupBaseAlignment
-  std::uint32_t mesh_vertices = 0;          // maxMeshOutputVertices
-  std::uint32_t mesh_primitives = 0;        // maxMeshOutputPrimitives
-  std::uint32_t mesh_invocations = 0;       // maxMeshWorkGroupInvocations
-  std::uint32_t task_groups = 0;            // maxTaskWorkGroupCount[0]
+  std::uint32_t scratch_alignment = 1;     // minAccelerationStructureScratchOffsetAlignment
+  std::uint64_t most_boxes = 0;            // maxPrimitiveCount
+  std::uint32_t group_handle_bytes = 0;    // shaderGroupHandleSize
+  std::uint32_t group_base_alignment = 1;  // shaderGroupBaseAlignment
+  std::uint32_t mesh_vertices = 0;         // maxMeshOutputVertices
+  std::uint32_t mesh_primitives = 0;       // maxMeshOutputPrimitives
+  std::uint32_t mesh_invocations = 0;      // maxMeshWorkGroupInvocations
+  std::uint32_t task_groups = 0;           // maxTaskWorkGroupCount[0]
 };
 
 // An open device and its only queue, which executes all work. Must outlive all objects that are

@@ -25,8 +25,8 @@ constexpr std::uint32_t tree_order_texels_binding = 15;
 // The passes that build the hierarchy, in the same order as `build_passes`.
 enum class BuildPass : std::uint8_t { keys, count, rows, totals, scatter, leaves, level };
 constexpr std::array<std::string_view, 7> build_passes{
-    "hierarchy_keys.comp.spv",    "hierarchy_count.comp.spv",   "hierarchy_rows.comp.spv",
-    "hierarchy_totals.comp.spv",  "hierarchy_scatter.comp.spv", "hierarchy_leaves.comp.spv",
+    "hierarchy_keys.comp.spv",   "hierarchy_count.comp.spv",   "hierarchy_rows.comp.spv",
+    "hierarchy_totals.comp.spv", "hierarchy_scatter.comp.spv", "hierarchy_leaves.comp.spv",
     "hierarchy_level.comp.spv"};
 constexpr std::string_view timed_trace = "bvh.comp.spv";
 constexpr std::string_view counting_trace = "bvh_counting.comp.spv";
@@ -79,7 +79,8 @@ class HierarchyTracer final : public Tracer {
   void run(const vk::raii::CommandBuffer& commands, const Layout& layout, vk::Pipeline pipeline,
            std::uint32_t invocations, const std::array<std::uint32_t, 4>& step) const;
   void run(const vk::raii::CommandBuffer& commands, const Layout& layout, const Step& step) const {
-    run(commands, layout, build_.at(static_cast<std::size_t>(step.pass)), step.invocations, step.values);
+    run(commands, layout, build_.at(static_cast<std::size_t>(step.pass)), step.invocations,
+        step.values);
   }
   void sort(const vk::raii::CommandBuffer& commands, const Layout& layout) const;
   void fit(const vk::raii::CommandBuffer& commands, const Layout& layout, bool refit) const;
@@ -108,8 +109,8 @@ class HierarchyTracer final : public Tracer {
 
 std::vector<vk::DescriptorSetLayoutBinding> HierarchyTracer::bindings() const {
   std::vector<vk::DescriptorSetLayoutBinding> all;
-  for (const std::uint32_t at : {boxes_binding, tree_spheres_binding, tree_order_binding,
-                                 sorted_binding, scratch_binding}) {
+  for (const std::uint32_t at :
+       {boxes_binding, tree_spheres_binding, tree_order_binding, sorted_binding, scratch_binding}) {
     all.push_back(storage_binding(at, vk::ShaderStageFlagBits::eCompute));
   }
   for (std::uint32_t at = box_texels_binding; at <= tree_order_texels_binding; ++at) {

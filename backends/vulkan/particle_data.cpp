@@ -152,7 +152,8 @@ record::Counts ParticleData::counts(technique::Method method, technique::Culling
   download(gpu_, counters_, std::as_writable_bytes(std::span(sums)));
   measure::check_counted(sums);
   return technique::particle_counts(
-      {.method = method, .culling = culling, .cells = cells_, .particles = particles_}, sums, picture);
+      {.method = method, .culling = culling, .cells = cells_, .particles = particles_}, sums,
+      picture);
 }
 
 }  // namespace triptych::vulkan_backend

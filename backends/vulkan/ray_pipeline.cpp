@@ -27,7 +27,7 @@ constexpr std::array<RayStage, 5> ray_stages{
 enum RayGroup : std::uint8_t { raygen_group, miss_group, hit_group, ray_groups };
 
 vk::raii::Pipeline make_ray_pipeline(const Gpu& gpu, const Layout& layout,
-                                 const Specialization& constants, bool counting) {
+                                     const Specialization& constants, bool counting) {
   const vk::SpecializationInfo specialization = constants.info();
   std::vector<vk::raii::ShaderModule> modules;
   std::vector<vk::PipelineShaderStageCreateInfo> stages;
@@ -55,14 +55,14 @@ vk::raii::Pipeline make_ray_pipeline(const Gpu& gpu, const Layout& layout,
           .closestHitShader = 4,
           .anyHitShader = 3,
           .intersectionShader = 2}};
-  return {gpu.device, nullptr, nullptr,
-          vk::RayTracingPipelineCreateInfoKHR{
-              .stageCount = static_cast<std::uint32_t>(stages.size()),
-              .pStages = stages.data(),
-              .groupCount = static_cast<std::uint32_t>(all.size()),
-              .pGroups = all.data(),
-              .maxPipelineRayRecursionDepth = 1,
-              .layout = *layout.pipeline}};
+  return {
+      gpu.device, nullptr, nullptr,
+      vk::RayTracingPipelineCreateInfoKHR{.stageCount = static_cast<std::uint32_t>(stages.size()),
+                                          .pStages = stages.data(),
+                                          .groupCount = static_cast<std::uint32_t>(all.size()),
+                                          .pGroups = all.data(),
+                                          .maxPipelineRayRecursionDepth = 1,
+                                          .layout = *layout.pipeline}};
 }
 
 // A pipeline with its shader binding table. The table has one record per group, with the alignment
@@ -85,7 +85,8 @@ class RayPipeline {
           .deviceAddress = begin + group * alignment, .stride = alignment, .size = alignment};
     };
     commands.bindPipeline(vk::PipelineBindPoint::eRayTracingKHR, *pipeline_);
-    commands.traceRaysKHR(region(raygen_group), region(miss_group), region(hit_group), {}, width, height, 1);
+    commands.traceRaysKHR(region(raygen_group), region(miss_group), region(hit_group), {}, width,
+                          height, 1);
   }
 
  private:
@@ -148,8 +149,8 @@ class RayPipelineTracer final : public StructureTracer {
 };
 
 std::unique_ptr<Tracer> make_pipeline_tracer(const Gpu& gpu, const measure::ParticleWork& work,
-                                    const technique::Arrangement& /*arrangement*/,
-                                    const ParticleData& data) {
+                                             const technique::Arrangement& /*arrangement*/,
+                                             const ParticleData& data) {
   return std::make_unique<RayPipelineTracer>(gpu, work, data);
 }
 

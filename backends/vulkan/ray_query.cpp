@@ -27,7 +27,9 @@ class RayQueryTracer final : public StructureTracer {
   }
   void send(const vk::raii::CommandBuffer& commands, const Layout& layout, bool counting,
             std::uint32_t every_row) const override {
-    const auto groups = [](std::uint32_t pixels) { return (pixels + query_group_edge - 1) / query_group_edge; };
+    const auto groups = [](std::uint32_t pixels) {
+      return (pixels + query_group_edge - 1) / query_group_edge;
+    };
     commands.bindPipeline(vk::PipelineBindPoint::eCompute, counting ? counting_ : timed_);
     commands.pushConstants<std::int32_t>(*layout.pipeline, stages(), 0,
                                          static_cast<std::int32_t>(every_row));
@@ -39,8 +41,8 @@ class RayQueryTracer final : public StructureTracer {
 };
 
 std::unique_ptr<Tracer> make_query_tracer(const Gpu& gpu, const measure::ParticleWork& work,
-                                    const technique::Arrangement& /*arrangement*/,
-                                    const ParticleData& data) {
+                                          const technique::Arrangement& /*arrangement*/,
+                                          const ParticleData& data) {
   return std::make_unique<RayQueryTracer>(gpu, work, data);
 }
 

@@ -1,9 +1,9 @@
-// The program that embree_spheres compiles and runs. It draws spheres with Embree (RTC_GEOMETRY_TYPE_SPHERE_POINT), with
-// packets of eight coherent rays on all cores.
+// The program that embree_spheres compiles and runs. It draws spheres with Embree
+// (RTC_GEOMETRY_TYPE_SPHERE_POINT), with packets of eight coherent rays on all cores.
 //   embree_spheres SCENE COUNT EDGE eye(3) forward(3) up(3) tangent_of_half
-// Prints Embree's version and the build time in ms. Then reads commands, one per line. For each command it draws a frame and
-// prints the time in nanoseconds. "frame" does nothing else; "image FILE" also writes premultiplied RGBA floats to FILE, top
-// row first.
+// Prints Embree's version and the build time in ms. Then reads commands, one per line. For each
+// command it draws a frame and prints the time in nanoseconds. "frame" does nothing else; "image
+// FILE" also writes premultiplied RGBA floats to FILE, top row first.
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>
 #else
@@ -52,9 +52,11 @@ struct Scene {
 void draw_packet(const Scene& scene, const View& view, int x, int y, float* image) {
   alignas(32) int valid[lanes];
   RTCRayHit8 rays;
-  const float v = (1 - 2 * (static_cast<float>(y) + 0.5F) / static_cast<float>(view.edge)) * view.half;
+  const float v =
+      (1 - 2 * (static_cast<float>(y) + 0.5F) / static_cast<float>(view.edge)) * view.half;
   for (int k = 0; k < lanes; ++k) {
-    const float u = (2 * (static_cast<float>(x + k) + 0.5F) / static_cast<float>(view.edge) - 1) * view.half;
+    const float u =
+        (2 * (static_cast<float>(x + k) + 0.5F) / static_cast<float>(view.edge) - 1) * view.half;
     valid[k] = x + k < view.edge ? -1 : 0;
     rays.ray.org_x[k] = view.eye.x;
     rays.ray.org_y[k] = view.eye.y;
@@ -95,7 +97,8 @@ void draw_packet(const Scene& scene, const View& view, int x, int y, float* imag
     const float cosine = std::abs(nx * dx + ny * dy + nz * dz) /
                          std::sqrt((nx * nx + ny * ny + nz * nz) * (dx * dx + dy * dy + dz * dz));
     const float light = (ambient + diffuse * cosine) / 255;
-    const std::uint8_t* colour = scene.colours.data() + 3 * static_cast<std::size_t>(rays.hit.primID[k]);
+    const std::uint8_t* colour =
+        scene.colours.data() + 3 * static_cast<std::size_t>(rays.hit.primID[k]);
     for (int c = 0; c < 3; ++c) pixel[c] = light * static_cast<float>(colour[c]);
     pixel[3] = 1;
   }
@@ -109,7 +112,8 @@ void draw(const Scene& scene, const View& view, std::vector<float>& image) {
       const int x0 = n % across * tile;
       const int y0 = n / across * tile;
       for (int y = y0; y < std::min(y0 + tile, view.edge); ++y) {
-        for (int x = x0; x < std::min(x0 + tile, view.edge); x += lanes) draw_packet(scene, view, x, y, image.data());
+        for (int x = x0; x < std::min(x0 + tile, view.edge); x += lanes)
+          draw_packet(scene, view, x, y, image.data());
       }
     }
   };
@@ -124,7 +128,8 @@ double since(std::chrono::steady_clock::time_point begin) {
 
 Scene load(RTCDevice device, const char* file, std::size_t count) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-  void* spheres = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, count);
+  void* spheres =
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 16, count);
   Scene scene{rtcNewScene(device), std::vector<std::uint8_t>(3 * count)};
   std::ifstream in(file, std::ios::binary);
   in.read(static_cast<char*>(spheres), static_cast<std::streamsize>(16 * count));
@@ -149,14 +154,16 @@ int main(int argc, char** argv) {
   view.right = cross(view.forward, view.up);
   const RTCDevice device = rtcNewDevice(nullptr);
   const Scene scene = load(device, argv[1], static_cast<std::size_t>(std::atoll(argv[2])));
-  std::vector<float> image(4 * static_cast<std::size_t>(view.edge) * static_cast<std::size_t>(view.edge));
+  std::vector<float> image(4 * static_cast<std::size_t>(view.edge) *
+                           static_cast<std::size_t>(view.edge));
   for (std::string line; std::getline(std::cin, line);) {
     const auto begin = std::chrono::steady_clock::now();
     draw(scene, view, image);
     std::printf("%.0f\n", since(begin));
     if (line.starts_with("image ")) {
       std::ofstream(line.substr(6), std::ios::binary)
-          .write(reinterpret_cast<const char*>(image.data()), static_cast<std::streamsize>(image.size() * sizeof(float)));
+          .write(reinterpret_cast<const char*>(image.data()),
+                 static_cast<std::streamsize>(image.size() * sizeof(float)));
     }
     std::fflush(stdout);
   }

@@ -36,8 +36,8 @@ std::string json_text(const Json& json, int indent) {
       result += first;
       continue;
     }
-    result += character != "\n" && is_hidden(character) ? escaped(character)
-                                                         : std::string(character);
+    result +=
+        character != "\n" && is_hidden(character) ? escaped(character) : std::string(character);
   }
   return result;
 }

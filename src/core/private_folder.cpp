@@ -46,7 +46,7 @@ class FolderDescriptor {
 };
 
 struct stat status_of(int fd, const fs::path& folder) {
-  struct stat status{};
+  struct stat status {};
   if (::fstat(fd, &status) != 0) refuse(folder, errno);
   return status;
 }

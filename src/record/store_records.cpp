@@ -165,8 +165,7 @@ void read_code(const SQLite::Database& database, std::string_view run,
 
 void insert_code(const SQLite::Database& database, std::int64_t record, const Code& code) {
   for (const auto& [executable, what] : code) {
-    execute(database, "INSERT INTO executable VALUES (?, ?, ?)", record, executable,
-            what.assembly);
+    execute(database, "INSERT INTO executable VALUES (?, ?, ?)", record, executable, what.assembly);
     for (const auto& [name, value] : what.statistics) {
       execute(database, "INSERT INTO code VALUES (?, ?, ?, ?)", record, executable, name, value);
     }

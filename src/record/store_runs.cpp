@@ -45,7 +45,8 @@ Run read_run(SQLite::Statement& row) {
 // reads them.
 std::string select_runs(std::string_view rest) {
   return fmt::format(
-      "SELECT id, plan, started_at, system, checks, plan_hash, configurations, begun, planned_hash, "
+      "SELECT id, plan, started_at, system, checks, plan_hash, configurations, begun, "
+      "planned_hash, "
       "seal FROM run {}",
       rest);
 }
@@ -108,17 +109,18 @@ std::optional<Run> latest_run_in(const SQLite::Database& database, std::string_v
 }
 
 void insert_run(const SQLite::Database& database, const Run& run) {
-  execute(database,
-          "INSERT INTO run (id, plan, started_at, system, checks, plan_hash, configurations, begun, "
-          "planned_hash, seal) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?) "
-          "ON CONFLICT (id) DO UPDATE SET plan = excluded.plan, "
-          "started_at = excluded.started_at, system = excluded.system, "
-          "checks = excluded.checks, plan_hash = excluded.plan_hash, "
-          "configurations = excluded.configurations, begun = excluded.begun, "
-          "planned_hash = excluded.planned_hash, seal = excluded.seal",
-          run.id, run.plan, run.started_at, text_of(run.system, "system", run), text_of(run.checks),
-          run.plan_hash, run.configurations, core::json_text(Json(run.begun)), run.planned_hash,
-          seal_of(run));
+  execute(
+      database,
+      "INSERT INTO run (id, plan, started_at, system, checks, plan_hash, configurations, begun, "
+      "planned_hash, seal) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?) "
+      "ON CONFLICT (id) DO UPDATE SET plan = excluded.plan, "
+      "started_at = excluded.started_at, system = excluded.system, "
+      "checks = excluded.checks, plan_hash = excluded.plan_hash, "
+      "configurations = excluded.configurations, begun = excluded.begun, "
+      "planned_hash = excluded.planned_hash, seal = excluded.seal",
+      run.id, run.plan, run.started_at, text_of(run.system, "system", run), text_of(run.checks),
+      run.plan_hash, run.configurations, core::json_text(Json(run.begun)), run.planned_hash,
+      seal_of(run));
 }
 
 void insert_planned(const SQLite::Database& database, const std::string& run,
@@ -188,7 +190,8 @@ std::vector<Store::DeviceEntry> read_devices(const SQLite::Database& database,
   SQLite::Statement rows =
       prepared(database,
                "SELECT seq, id, api, name, vendor, driver, driver_version, api_version, "
-               "cpu_features, environment, limits, compiles_for, seal FROM device WHERE run = ? ORDER BY seq",
+               "cpu_features, environment, limits, compiles_for, seal FROM device WHERE run = ? "
+               "ORDER BY seq",
                run);
   while (rows.executeStep()) {
     std::uint64_t seq = 0;

@@ -17,7 +17,6 @@ namespace triptych::scene {
 // TimeStep, TaggedFileName, NbrTags, ObjectType, ObjectModel, GridType and Modality are accepted
 // and ignored. Any other key is an error, as is extra data after the voxels. The caller sets the
 // volume's name. Throws InputError with the line, and IoError.
-[[nodiscard]] Volume read_dat(const std::filesystem::path& file,
-                              const Component& component = {});
+[[nodiscard]] Volume read_dat(const std::filesystem::path& file, const Component& component = {});
 
 }  // namespace triptych::scene

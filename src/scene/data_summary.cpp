@@ -100,7 +100,8 @@ Histogram histogram_of(const Volume& volume) {
 }
 
 double percentile_of(const Histogram& histogram, const Volume& volume, double percent) {
-  const double rank = std::max(std::ceil(percent / 100 * static_cast<double>(histogram.finite)), 1.0);
+  const double rank =
+      std::max(std::ceil(percent / 100 * static_cast<double>(histogram.finite)), 1.0);
   std::uint64_t below = 0;
   std::size_t step = 0;
   for (; step + 1 < histogram.counts.size(); ++step) {
@@ -112,8 +113,8 @@ double percentile_of(const Histogram& histogram, const Volume& volume, double pe
 
 void append_picture(std::vector<std::string>& lines, const Volume& volume) {
   const auto [nx, ny, nz] = volume.size;
-  SmallPicture picture(nx * volume.spacing[0], ny * volume.spacing[1],
-                       static_cast<std::size_t>(nx), static_cast<std::size_t>(ny));
+  SmallPicture picture(nx * volume.spacing[0], ny * volume.spacing[1], static_cast<std::size_t>(nx),
+                       static_cast<std::size_t>(ny));
   const double range = volume.range_hi - volume.range_lo;
   if (!(range > 0)) return;
   with_scalar_type(volume.type, [&](auto zero) {
@@ -164,7 +165,8 @@ std::vector<std::string> summary_of(const Volume& volume) {
       facts.components == 1 ? "one value" : fmt::format("{} values", facts.components),
       facts.value_type.empty() ? name_of(volume.type) : facts.value_type, name_of(volume.type)));
   lines.push_back(fmt::format("spacing: {:.6g} x {:.6g} x {:.6g}{}", sx, sy, sz, unit));
-  lines.push_back(fmt::format("extent: {:.6g} x {:.6g} x {:.6g}{}", nx * sx, ny * sy, nz * sz, unit));
+  lines.push_back(
+      fmt::format("extent: {:.6g} x {:.6g} x {:.6g}{}", nx * sx, ny * sy, nz * sz, unit));
   lines.push_back(fmt::format("orientation: {}",
                               facts.orientation.empty()
                                   ? "not specified"
@@ -174,8 +176,7 @@ std::vector<std::string> summary_of(const Volume& volume) {
       histogram.other == 0 ? "" : fmt::format(", plus {} non-finite values", histogram.other)));
   std::string percentiles = "percentiles:";
   for (const double percent : {1.0, 25.0, 50.0, 75.0, 99.0}) {
-    percentiles +=
-        fmt::format(" p{} {:.6g}", percent, percentile_of(histogram, volume, percent));
+    percentiles += fmt::format(" p{} {:.6g}", percent, percentile_of(histogram, volume, percent));
   }
   lines.push_back(percentiles);
   append_picture(lines, volume);

@@ -23,7 +23,8 @@ using Names = std::set<std::string, std::less<>>;
 constexpr std::string_view organic_residues =
     // amino acids, their protonation states and caps
     "ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ASX GLX PYL "
-    "HID HIE HIP HSD HSE HSP HISA HISB HISD HISE HISH HIS1 HIS2 CYX CYM CYS1 CYS2 CYSH CYN ASH ASPH "
+    "HID HIE HIP HSD HSE HSP HISA HISB HISD HISE HISH HIS1 HIS2 CYX CYM CYS1 CYS2 CYSH CYN ASH "
+    "ASPH "
     "ASPP GLH GLUH GLUP LYN LYSH LSN LYP ARGN ARN TYM QLN PGLU ACE NME NMA NH2 NHE FOR FME HYP PCA "
     "SEP TPO PTR CSO CSD CME OCS KCX MLY M3L MLZ ABA AIB ORN NLE CGU UNK DAL DSN "
     // nucleotides
@@ -43,25 +44,24 @@ constexpr std::string_view hemes = "HEM HEC HEA HEB HEO HAS HDD HEME HEMA";
 constexpr std::string_view chlorophylls = "CLA CHL BCL BCB PHO";
 
 // Ion names that differ from the element's symbol.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 18> ion_names{
-    {{"SOD", "Na"},
-     {"CLA", "Cl"},
-     {"CHL", "Cl"},
-     {"CHLA", "Cl"},
-     {"POT", "K"},
-     {"CAL", "Ca"},
-     {"CES", "Cs"},
-     {"LIT", "Li"},
-     {"RUB", "Rb"},
-     {"BAR", "Ba"},
-     {"CAD", "Cd"},
-     {"MAG", "Mg"},
-     {"ZIN", "Zn"},
-     {"IOD", "I"},
-     {"CIO", "Cs"},
-     {"IM", "Cl"},
-     {"IP", "Na"},
-     {"BRO", "Br"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 18> ion_names{{{"SOD", "Na"},
+                                                                                   {"CLA", "Cl"},
+                                                                                   {"CHL", "Cl"},
+                                                                                   {"CHLA", "Cl"},
+                                                                                   {"POT", "K"},
+                                                                                   {"CAL", "Ca"},
+                                                                                   {"CES", "Cs"},
+                                                                                   {"LIT", "Li"},
+                                                                                   {"RUB", "Rb"},
+                                                                                   {"BAR", "Ba"},
+                                                                                   {"CAD", "Cd"},
+                                                                                   {"MAG", "Mg"},
+                                                                                   {"ZIN", "Zn"},
+                                                                                   {"IOD", "I"},
+                                                                                   {"CIO", "Cs"},
+                                                                                   {"IM", "Cl"},
+                                                                                   {"IP", "Na"},
+                                                                                   {"BRO", "Br"}}};
 
 // Two-letter symbols that cannot be mistaken for an organic atom. They begin like an organic
 // element, but the name of an organic atom continues with a Greek letter (A, B, G, D, E, Z, H) or
@@ -192,8 +192,7 @@ bool are_aligned(const Atoms& atoms) {
     any |= to_the_right;
     const bool short_name = trimmed(columns).size() < 4;
     const std::string residue = upper_case(unnamed->residue);
-    const std::string symbol =
-        element_of_residue(first_letters(upper_case(columns)), residue);
+    const std::string symbol = element_of_residue(first_letters(upper_case(columns)), residue);
     const bool first_is_letter = is_upper(upper_case(columns.substr(0, 1)).front());
     if (!to_the_right && first_is_letter && short_name && symbol.size() == 1) return false;
   }
@@ -266,9 +265,8 @@ void name_elements(Atoms& atoms, bool aligned) {
       renamed.push_back(named.kind(name));
       continue;
     }
-    const NamedElement element = by_columns
-                                     ? element_of_columns(unnamed->columns, unnamed->residue)
-                                     : element_of_name(unnamed->columns, unnamed->residue);
+    const NamedElement element = by_columns ? element_of_columns(unnamed->columns, unnamed->residue)
+                                            : element_of_name(unnamed->columns, unnamed->residue);
     renamed.push_back(named.kind(element.symbol));
     if (!element.guessed) continue;
     guessed += counts[kind];

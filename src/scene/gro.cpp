@@ -38,9 +38,9 @@ std::size_t place_width(std::string_view line, const LineReader& reader) {
 void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
                   const LineReader& reader) {
   if (line.size() < places_begin + 3 * width) {
-    reader.reject(
-        fmt::format("expected an atom with its position in columns 21 to {}, but the line has {} columns",
-                    places_begin + 3 * width, line.size()));
+    reader.reject(fmt::format(
+        "expected an atom with its position in columns 21 to {}, but the line has {} columns",
+        places_begin + 3 * width, line.size()));
   }
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
   std::array<double, 3> place{};

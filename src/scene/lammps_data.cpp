@@ -23,9 +23,7 @@ struct Style {
 
   [[nodiscard]] std::size_t flags() const { return place + 3 + behind; }
   [[nodiscard]] bool has_flags(std::size_t words) const { return words == flags() + 3; }
-  [[nodiscard]] bool fits(std::size_t words) const {
-    return words == flags() || has_flags(words);
-  }
+  [[nodiscard]] bool fits(std::size_t words) const { return words == flags() || has_flags(words); }
 };
 
 constexpr std::array<Style, 14> styles{{{"atomic", 1, 2},
@@ -61,11 +59,10 @@ const Style* named_style(std::string_view comment, const LineReader& reader) {
 }
 
 bool are_whole(const Words& words, std::size_t first) {
-  return std::all_of(words.begin() + static_cast<std::ptrdiff_t>(first),
-                     words.begin() + static_cast<std::ptrdiff_t>(first) + 3,
-                     [](std::string_view word) {
-                       return parse_number<std::int64_t>(word).has_value();
-                     });
+  return std::all_of(
+      words.begin() + static_cast<std::ptrdiff_t>(first),
+      words.begin() + static_cast<std::ptrdiff_t>(first) + 3,
+      [](std::string_view word) { return parse_number<std::int64_t>(word).has_value(); });
 }
 
 // Determines the style from the number of columns if there is no comment. Lines with 5 columns

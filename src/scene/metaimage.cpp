@@ -59,7 +59,8 @@ class MetaHeader {
   [[nodiscard]] const MetaField& require(const std::string& key) const {
     const MetaField* field = find(lower_case(key));
     if (field == nullptr) {
-      throw core::InputError({.file = file_}, fmt::format("the header contains no line '{} = …'", key));
+      throw core::InputError({.file = file_},
+                             fmt::format("the header contains no line '{} = …'", key));
     }
     return *field;
   }
@@ -70,8 +71,8 @@ class MetaHeader {
     const std::string value = lower_case(field->value);
     if (value == "true" || value == "1") return true;
     if (value == "false" || value == "0") return false;
-    throw core::InputError(field->place, fmt::format("found '{}'; expected True or False",
-                                                     quotable(field->value)));
+    throw core::InputError(
+        field->place, fmt::format("found '{}'; expected True or False", quotable(field->value)));
   }
   [[nodiscard]] std::uint64_t data_start() const { return data_start_; }
   [[nodiscard]] const std::vector<MetaField>& listed_files() const { return files_; }
@@ -127,8 +128,9 @@ StoredType meta_type(const MetaField& field) {
 std::uint64_t whole_number(const MetaField& field) {
   const auto number = parse_number<std::uint32_t>(field.value);
   if (!number || *number == 0) {
-    throw core::InputError(field.place, fmt::format("found '{}'; expected a whole number, 1 or more",
-                                                    quotable(field.value)));
+    throw core::InputError(
+        field.place,
+        fmt::format("found '{}'; expected a whole number, 1 or more", quotable(field.value)));
   }
   return *number;
 }
@@ -137,8 +139,8 @@ std::uint64_t whole_number(const MetaField& field) {
 std::string first_three(const MetaField& field, std::uint64_t dimensions) {
   auto words = split_words(field.value);
   if (words.size() != dimensions) {
-    throw core::InputError(field.place, fmt::format("expected {} values, got {}", dimensions,
-                                                    words.size()));
+    throw core::InputError(field.place,
+                           fmt::format("expected {} values, got {}", dimensions, words.size()));
   }
   words.resize(3);
   return fmt::format("{}", fmt::join(words, " "));
@@ -148,7 +150,8 @@ void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layo
   const MetaField& dims = header.require("NDims");
   const std::uint64_t dimensions = whole_number(dims);
   if (dimensions != 3 && dimensions != 4) {
-    throw core::InputError(dims.place, fmt::format("the volume has {} dimensions; expected 3 or 4", dimensions));
+    throw core::InputError(
+        dims.place, fmt::format("the volume has {} dimensions; expected 3 or 4", dimensions));
   }
   const MetaField& sizes = header.require("DimSize");
   volume.size = parse_sizes(first_three(sizes, dimensions), sizes.place);
@@ -168,8 +171,7 @@ void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layo
   const MetaField* spacing = header.find("elementspacing");
   if (spacing == nullptr) spacing = header.find("elementsize");
   if (spacing == nullptr) return;
-  volume.spacing =
-      parse_spacings(first_three(*spacing, dimensions), volume.size, spacing->place);
+  volume.spacing = parse_spacings(first_three(*spacing, dimensions), volume.size, spacing->place);
 }
 
 // Records the directions of the axes, which are the rows of TransformMatrix, in LPS space.
@@ -232,9 +234,9 @@ RawVoxels locate_voxels(const MetaHeader& header, const std::filesystem::path& f
   if (const MetaField* skip = header.find("headersize")) {
     const auto bytes = parse_number<std::int64_t>(skip->value);
     if (!bytes || *bytes < -1) {
-      throw core::InputError(
-          skip->place,
-          fmt::format("found '{}'; expected a whole number, 0 or more, or -1", quotable(skip->value)));
+      throw core::InputError(skip->place,
+                             fmt::format("found '{}'; expected a whole number, 0 or more, or -1",
+                                         quotable(skip->value)));
     }
     source.skip = *bytes;
   }
@@ -256,8 +258,9 @@ Volume read_metaimage(const std::filesystem::path& file, const Component& compon
   const MetaHeader header(file);
   if (const MetaField* object = header.find("objecttype");
       object != nullptr && lower_case(object->value) != "image") {
-    throw core::InputError(object->place, fmt::format("the object type '{}' is not a volume; expected Image",
-                                                      quotable(object->value)));
+    throw core::InputError(object->place,
+                           fmt::format("the object type '{}' is not a volume; expected Image",
+                                       quotable(object->value)));
   }
   Volume volume;
   RawVoxels source = locate_voxels(header, file);

@@ -43,11 +43,13 @@ Header::Header(const std::filesystem::path& file) : file_(file.string()) {
                     start.find("\n\r\n") != std::string::npos || start.size() < usual_header;
   if (!ends) start = content_start(file, longest_header);
   parse(start);
-  const bool too_long = !data_start_ && start.size() == longest_header && find("data file") == nullptr;
+  const bool too_long =
+      !data_start_ && start.size() == longest_header && find("data file") == nullptr;
   if (too_long) {
-    throw core::InputError(last_line(),
-                           fmt::format("the header is not terminated by a blank line within its first {} bytes",
-                                       longest_header));
+    throw core::InputError(
+        last_line(),
+        fmt::format("the header is not terminated by a blank line within its first {} bytes",
+                    longest_header));
   }
 }
 
@@ -72,7 +74,8 @@ void Header::parse(std::string_view start) {
       add(line, place);
     }
   }
-  if (lines_ == 0) throw core::InputError({.file = file_}, "the file is empty; expected an NRRD header");
+  if (lines_ == 0)
+    throw core::InputError({.file = file_}, "the file is empty; expected an NRRD header");
 }
 
 void Header::add(std::string_view line, const core::FilePlace& place) {

@@ -94,8 +94,8 @@ const ParticleFormat& particle_format(const std::string& file, std::string_view 
   const std::string ending = ending_of(file);
   const auto named = std::ranges::find_if(
       formats, [&](const ParticleFormat& format) { return has_ending(format.endings, ending); });
-  const auto begun =
-      std::ranges::find_if(formats, [&](const ParticleFormat& format) { return format.begins(start); });
+  const auto begun = std::ranges::find_if(
+      formats, [&](const ParticleFormat& format) { return format.begins(start); });
   if (named == formats.end() && begun == formats.end()) {
     throw core::InputError({.file = file}, fmt::format("'{}' is not a known particle format; {}",
                                                        quotable(ending), particle_advice(ending)));

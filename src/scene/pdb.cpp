@@ -45,7 +45,8 @@ std::string symbol_in_columns(std::string_view line) {
   const std::string_view field = columns(line, 77, 78);
   const std::string_view symbol = trimmed(field);
   if (!atomic_number(symbol)) return {};
-  const bool within_a_word = line.size() >= 76 && is_letter_of_pdb(line[75]) && field.front() != ' ';
+  const bool within_a_word =
+      line.size() >= 76 && is_letter_of_pdb(line[75]) && field.front() != ' ';
   if (within_a_word && !letters_of_name(columns(line, 13, 16)).starts_with(lower_case(symbol))) {
     return {};
   }
@@ -67,8 +68,8 @@ double coordinate(std::string_view line, std::size_t first, std::string_view wha
   const std::size_t last = first + 7;
   const std::string_view field = columns(line, first, last);
   const double value = reader.number(field, what);
-  const bool as_specified = field[4] == '.' && is_digit(field[5]) && is_digit(field[6]) &&
-                            is_digit(field[7]);
+  const bool as_specified =
+      field[4] == '.' && is_digit(field[5]) && is_digit(field[6]) && is_digit(field[7]);
   const bool after_a_number = first > 31;
   const bool begins = is_blank_column(line, first - 1) || (after_a_number && field[0] == ' ');
   const bool is_alone = begins && is_blank_column(line, last + 1);

@@ -14,9 +14,10 @@ void add_pqr_atom(Atoms& atoms, const std::vector<std::string_view>& words,
                   const LineReader& reader) {
   // The chain may be missing, or it may be joined to the residue's number.
   if (words.size() != 10 && words.size() != 11) {
-    reader.reject(fmt::format("expected 'ATOM number name residue [chain] number x y z charge "
-                              "radius' (10 or 11 words), found {} words",
-                              words.size()));
+    reader.reject(
+        fmt::format("expected 'ATOM number name residue [chain] number x y z charge "
+                    "radius' (10 or 11 words), found {} words",
+                    words.size()));
   }
   const std::size_t x = words.size() - 5;
   atoms.add({reader.number(words[x], "x"), reader.number(words[x + 1], "y"),

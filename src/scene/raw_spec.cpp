@@ -99,8 +99,9 @@ std::optional<RawSpec> parse_raw_spec(std::string_view data) {
   const auto type = std::ranges::find(type_names, lower_case(parts[at + 1]),
                                       &std::pair<std::string_view, StoredType>::first);
   if (type == type_names.end()) {
-    reject_spec(data, fmt::format("unknown type '{}'; expected u8 i8 u16 i16 u32 i32 u64 i64 f32 or f64",
-                                  parts[at + 1]));
+    reject_spec(data,
+                fmt::format("unknown type '{}'; expected u8 i8 u16 i16 u32 i32 u64 i64 f32 or f64",
+                            parts[at + 1]));
   }
   spec.layout.type = type->second;
   for (std::size_t i = at + 2; i < parts.size(); ++i) take_option(spec, parts[i], data);

@@ -56,10 +56,10 @@ std::string_view stream_name(const RawVoxels& source) {
 
 [[noreturn]] void refuse_size(const Volume& volume, const RawVoxels& source, std::uint64_t needed,
                               const std::filesystem::path& file, const std::string& held) {
-  throw core::InputError(source.sizes_place,
-                         fmt::format("{} need {} bytes of data, but {}{} holds {}",
-                                     stated(volume, source), needed, stream_name(source),
-                                     file.filename().string(), held));
+  throw core::InputError(
+      source.sizes_place,
+      fmt::format("{} need {} bytes of data, but {}{} holds {}", stated(volume, source), needed,
+                  stream_name(source), file.filename().string(), held));
 }
 
 bool is_compressed(const RawVoxels& source) {
@@ -118,13 +118,13 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
     // Deflate expands one bit to at most 129 bytes, which limits the decompressed size. bzip2 has
     // no useful limit.
     constexpr std::uint64_t largest_ratio = 1032;
-    const bool deflated =
-        source.encoding != RawEncoding::bzip2 && source.packing != Packing::bzip2;
+    const bool deflated = source.encoding != RawEncoding::bzip2 && source.packing != Packing::bzip2;
     if (deflated && (share + skip) / largest_ratio > there) {
       throw core::InputError(
           source.sizes_place,
-          fmt::format("{} need {} bytes of data, more than the {} compressed bytes of {} can contain",
-                      stated(volume, source), needed, there, file.filename().string()));
+          fmt::format(
+              "{} need {} bytes of data, more than the {} compressed bytes of {} can contain",
+              stated(volume, source), needed, there, file.filename().string()));
     }
     if (needed > most_unpacked_bytes || skip > most_unpacked_bytes - needed) {
       refuse_unpacked(file.string(), most_unpacked_bytes);
@@ -152,10 +152,11 @@ class Files {
     files_.insert(files_.end(), source.more_files.begin(), source.more_files.end());
     share_ = needed / files_.size();
     if (share_ * files_.size() != needed) {
-      throw core::InputError(source.sizes_place,
-                             fmt::format("{} need {} bytes of data, which cannot be divided equally "
-                                         "among {} files",
-                                         stated(volume, source), needed, files_.size()));
+      throw core::InputError(
+          source.sizes_place,
+          fmt::format("{} need {} bytes of data, which cannot be divided equally "
+                      "among {} files",
+                      stated(volume, source), needed, files_.size()));
     }
     for (const auto& file : files_) check_claim(volume, source, needed, share_, file);
     open();
@@ -183,12 +184,12 @@ class Files {
   // Checks that nothing follows the values in the current file, except blanks in a text file.
   void check_surplus() const {
     if (source_.more_may_follow) return;
-    std::vector<std::byte> surplus(source_.encoding == RawEncoding::text
-                                       ? bytes_of(source_.layout.type)
-                                       : std::size_t{1});
+    std::vector<std::byte> surplus(
+        source_.encoding == RawEncoding::text ? bytes_of(source_.layout.type) : std::size_t{1});
     if (bytes_(surplus) == 0) return;
     const bool plain = stream_name(source_).empty();
-    refuse_size(volume_, source_, needed_, files_[index_], plain ? "more (data after the end)" : "more");
+    refuse_size(volume_, source_, needed_, files_[index_],
+                plain ? "more (data after the end)" : "more");
   }
 
  private:
@@ -232,7 +233,8 @@ void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
   const ByteSource bytes = file_bytes(source.file, source.start + skipped);
   volume.voxels.resize(needed);
   if (bytes(volume.voxels) != needed) {
-    throw core::IoError(fmt::format("{}: the file became shorter while it was read", source.file.string()));
+    throw core::IoError(
+        fmt::format("{}: the file became shorter while it was read", source.file.string()));
   }
 }
 
@@ -277,8 +279,8 @@ void note_values(Volume& volume, const RawVoxels& source) {
   facts.value_type = name_of(layout.type);
   facts.components = layout.components;
   if (layout.is_scaled()) {
-    facts.notes.push_back(fmt::format("the stored values are scaled: value = {}·stored + {}", layout.slope,
-                                      layout.intercept));
+    facts.notes.push_back(fmt::format("the stored values are scaled: value = {}·stored + {}",
+                                      layout.slope, layout.intercept));
   }
   if (layout.components == 1) return;
   facts.notes.push_back(

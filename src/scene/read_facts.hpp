@@ -15,12 +15,12 @@ struct ReadFacts {
     std::uint64_t count = 0;
   };
 
-  std::string format;              // the name in the table of formats, such as "PDB"
-  std::string unit;                // unit of length; empty if the file does not state a unit
-  std::vector<Kind> kinds;         // particles only, in the order in which colours are assigned
-  bool elements = false;           // whether kinds are chemical elements
-  std::string value_type;          // volumes only: the type of the values in the file
-  std::uint64_t components = 1;    // volumes only: number of values per voxel in the file
+  std::string format;            // the name in the table of formats, such as "PDB"
+  std::string unit;              // unit of length; empty if the file does not state a unit
+  std::vector<Kind> kinds;       // particles only, in the order in which colours are assigned
+  bool elements = false;         // whether kinds are chemical elements
+  std::string value_type;        // volumes only: the type of the values in the file
+  std::uint64_t components = 1;  // volumes only: number of values per voxel in the file
   std::string orientation;  // volumes only: the directions of the axes, as the file states them
   std::vector<std::string> notes;  // one sentence for each guess or omission
 };

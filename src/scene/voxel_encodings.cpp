@@ -79,7 +79,9 @@ class HexReader {
       const auto high = digit();
       if (!high) return i;
       const auto low = digit();
-      if (!low) throw core::InputError({.file = file_}, "data: the last byte has only one hexadecimal digit");
+      if (!low)
+        throw core::InputError({.file = file_},
+                               "data: the last byte has only one hexadecimal digit");
       out[i] = static_cast<std::byte>(*high << 4U | *low);
     }
     return out.size();
@@ -215,9 +217,10 @@ class TextReader {
     if (word.empty()) return false;
     const auto value = value_of(word, type_);
     if (!value) {
-      throw core::InputError({.file = file_}, fmt::format("data: expected a value of type {}, found "
-                                                          "'{}'",
-                                                          name_of(type_), quotable(word)));
+      throw core::InputError({.file = file_},
+                             fmt::format("data: expected a value of type {}, found "
+                                         "'{}'",
+                                         name_of(type_), quotable(word)));
     }
     value_ = *value;
     at_ = 0;

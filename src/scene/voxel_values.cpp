@@ -180,8 +180,8 @@ void narrow(Volume& volume) {
     hi = std::max(hi, value);
     // The values are compared as doubles, because the float nearest to the largest integer does not
     // fit into the integer type.
-    exact_floats = exact_floats && static_cast<double>(static_cast<float>(value)) ==
-                                       static_cast<double>(value);
+    exact_floats = exact_floats &&
+                   static_cast<double>(static_cast<float>(value)) == static_cast<double>(value);
   }
   const auto fits = [&]<typename To>(To /*zero*/) {
     return std::cmp_greater_equal(lo, std::numeric_limits<To>::lowest()) &&

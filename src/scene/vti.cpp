@@ -141,12 +141,14 @@ void take_extent(const VtiFile& vti, bool of_cells, Volume& volume) {
       vti.reject("the piece does not contain the whole image (Extent and WholeExtent differ)");
     }
   }
-  const auto spacing = numbers_of<double>(vti.image.attribute("Spacing", "1 1 1"), 3, vti, "Spacing");
+  const auto spacing =
+      numbers_of<double>(vti.image.attribute("Spacing", "1 1 1"), 3, vti, "Spacing");
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::int64_t size = std::int64_t{extent[2 * axis + 1]} - extent[2 * axis] +
-                              (of_cells ? 0 : 1);
+    const std::int64_t size =
+        std::int64_t{extent[2 * axis + 1]} - extent[2 * axis] + (of_cells ? 0 : 1);
     if (size < 1 || size > std::numeric_limits<int>::max()) {
-      vti.reject(fmt::format("WholeExtent has {} values along axis {}; expected at least 1", size, axis));
+      vti.reject(
+          fmt::format("WholeExtent has {} values along axis {}; expected at least 1", size, axis));
     }
     volume.size.at(axis) = static_cast<int>(size);
     volume.spacing.at(axis) =

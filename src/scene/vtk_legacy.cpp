@@ -84,10 +84,11 @@ StoredType vtk_type(const VtkLines& lines, std::string_view name) {
   for (const auto& [spelling, type] : types) {
     if (spelled == spelling) return type;
   }
-  lines.reject(fmt::format("type '{}' is not supported; expected unsigned_char, char, "
-                           "unsigned_short, short, unsigned_int, int, unsigned_long, long, float or "
-                           "double",
-                           quotable(name)));
+  lines.reject(
+      fmt::format("type '{}' is not supported; expected unsigned_char, char, "
+                  "unsigned_short, short, unsigned_int, int, unsigned_long, long, float or "
+                  "double",
+                  quotable(name)));
 }
 
 std::uint64_t count_of(const VtkLines& lines, std::string_view word) {
@@ -121,7 +122,8 @@ std::uint64_t take_geometry(VtkLines& lines, VtkHeader& header) {
       header.of_cells = key == "cell_data";
       return count_of(lines, value);
     } else if (key == "field") {
-      lines.reject("a FIELD before POINT_DATA is not supported; remove it, or save the image as .vti");
+      lines.reject(
+          "a FIELD before POINT_DATA is not supported; remove it, or save the image as .vti");
     } else if (key != "origin" && key != "metadata" && key != "information" && key != "name" &&
                key != "data") {
       lines.reject(fmt::format("expected DIMENSIONS, SPACING, ORIGIN or POINT_DATA, found '{}'",
@@ -162,9 +164,10 @@ ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
     layout.components = count_of(lines, words[1]);
     layout.type = vtk_type(lines, words[3]);
   } else {
-    lines.reject(fmt::format("expected an array (SCALARS, COLOR_SCALARS, VECTORS, NORMALS or FIELD), "
-                             "found '{}'",
-                             quotable(words.front())));
+    lines.reject(
+        fmt::format("expected an array (SCALARS, COLOR_SCALARS, VECTORS, NORMALS or FIELD), "
+                    "found '{}'",
+                    quotable(words.front())));
   }
   return layout;
 }

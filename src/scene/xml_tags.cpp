@@ -56,16 +56,14 @@ XmlTag XmlTags::parse(std::string_view text) const {
     text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
     if (text.empty()) return tag;
     const std::size_t equals = text.find('=');
-    const std::size_t open = equals == std::string_view::npos
-                                 ? equals
-                                 : text.find_first_not_of(blanks, equals + 1);
-    const bool quoted =
-        open != std::string_view::npos && (text[open] == '"' || text[open] == '\'');
+    const std::size_t open =
+        equals == std::string_view::npos ? equals : text.find_first_not_of(blanks, equals + 1);
+    const bool quoted = open != std::string_view::npos && (text[open] == '"' || text[open] == '\'');
     const std::size_t close = quoted ? text.find(text[open], open + 1) : std::string_view::npos;
     if (close == std::string_view::npos) {
-      throw core::InputError({.file = file_},
-                             fmt::format("<{}>: expected attributes as NAME=\"VALUE\"",
-                                         quotable(tag.name)));
+      throw core::InputError(
+          {.file = file_},
+          fmt::format("<{}>: expected attributes as NAME=\"VALUE\"", quotable(tag.name)));
     }
     std::string_view key = text.substr(0, equals);
     key = key.substr(0, std::min(key.find_first_of(blanks), key.size()));

@@ -19,7 +19,8 @@ struct XmlTag {
   bool empty = false;     // <NAME/>
   std::uint64_t end = 0;  // position of the byte after '>'
 
-  [[nodiscard]] std::string attribute(const std::string& key, const std::string& otherwise = {}) const {
+  [[nodiscard]] std::string attribute(const std::string& key,
+                                      const std::string& otherwise = {}) const {
     const auto found = attributes.find(key);
     return found == attributes.end() ? otherwise : found->second;
   }

@@ -49,9 +49,10 @@ XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
                                 quotable(word)));
     }
     if (type.size() != 1 || std::string_view("rils").find(type) == std::string_view::npos) {
-      reader.reject(fmt::format("expected Properties=NAME:TYPE:COUNT:… with type R, I, L or S, "
-                                "found '{}'",
-                                quotable(type)));
+      reader.reject(
+          fmt::format("expected Properties=NAME:TYPE:COUNT:… with type R, I, L or S, "
+                      "found '{}'",
+                      quotable(type)));
     }
     if (name == "species" && *columns == 1) species = count;
     if (name == "z" && *columns == 1) number = count;
@@ -70,8 +71,8 @@ XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
 XyzColumns columns_of(std::string_view text, const LineReader& reader) {
   const XyzComment comment = parse_xyz_comment(text);
   if (!comment.error.empty()) {
-    reader.reject(fmt::format("the comment contains 'Properties=' but is not valid extended XYZ: {}",
-                              comment.error));
+    reader.reject(fmt::format(
+        "the comment contains 'Properties=' but is not valid extended XYZ: {}", comment.error));
   }
   return comment.properties ? stated_columns(*comment.properties, reader) : XyzColumns{};
 }
@@ -104,7 +105,8 @@ void split_quoted_into(std::string_view line, std::vector<std::string_view>& wor
     const bool quoted = line[at] == '"';
     const std::size_t begin = quoted ? at + 1 : at;
     std::size_t end = begin;
-    while (end < line.size() && (quoted ? line[end] != '"' : line[end] != ' ' && line[end] != '\t')) {
+    while (end < line.size() &&
+           (quoted ? line[end] != '"' : line[end] != ' ' && line[end] != '\t')) {
       end += line[end] == '\\' && quoted ? std::size_t{2} : std::size_t{1};
     }
     if (quoted && end >= line.size()) reader.reject("expected a closing quote");

@@ -20,7 +20,8 @@ class CutShort : public testing::Test {
  protected:
   CutShort() {
     program.write("p.yaml", memory_plan);
-    program.write("both.yaml", std::string(tiny_plan) + "step: [1, 0.5]\nchecks: [counters, memory]\n");
+    program.write("both.yaml",
+                  std::string(tiny_plan) + "step: [1, 0.5]\nchecks: [counters, memory]\n");
   }
   // Runs the plan on two devices, and accepts the run.
   void accept(const std::string& plan = "p.yaml") {
@@ -30,7 +31,8 @@ class CutShort : public testing::Test {
     result = program.run("accept " + plan + " --reason x --baselines b" + options, two_devices);
     ASSERT_EQ(result.code, 0) << result.output;
   }
-  [[nodiscard]] Result gate(const std::string& more = "", const std::string& plan = "p.yaml") const {
+  [[nodiscard]] Result gate(const std::string& more = "",
+                            const std::string& plan = "p.yaml") const {
     return program.run("gate " + plan + " --store s.sqlite --baselines b " + more, two_devices);
   }
   [[nodiscard]] Result run(const std::string& script, const std::string& more = "",
@@ -51,7 +53,8 @@ TEST_F(CutShort, ACompleteRunPasses) {
 // Kills the program while the second device draws its first frame, which takes 10 s.
 TEST_F(CutShort, AKilledRunIsReported) {
   accept();
-  const std::string slow = R"({"devices": [1, 10000], "base_ns": 1e6, "ns_per_sample": 0, "sleep": true})";
+  const std::string slow =
+      R"({"devices": [1, 10000], "base_ns": 1e6, "ns_per_sample": 0, "sleep": true})";
   ASSERT_NE(run(slow, "", "timeout -s KILL 8").code, 0);
   const Result judged = gate();
   EXPECT_EQ(judged.code, 2) << judged.output;

@@ -15,7 +15,8 @@ class Surroundings : public testing::Test {
   // Measures and accepts the plan with the usual locale and time.
   void SetUp() override {
     const std::string given = " --device null:scripted --store s.sqlite";
-    program.write("p.yaml", std::string(tiny_plan) + "step: [0.5, 1]\nchecks: [counters, memory]\n");
+    program.write("p.yaml",
+                  std::string(tiny_plan) + "step: [0.5, 1]\nchecks: [counters, memory]\n");
     ASSERT_EQ(program.run("run p.yaml" + given).code, 0);
     ASSERT_EQ(program.run("accept p.yaml --reason x --store s.sqlite --baselines b").code, 0);
   }

@@ -30,10 +30,14 @@ void write_array(const std::string& file, const std::vector<T>& values) {
 nlohmann::json facts_json(const scene::ReadFacts& facts) {
   nlohmann::json kinds = nlohmann::json::object();
   for (const auto& [name, count] : facts.kinds) kinds[name] = count;
-  return {{"format", facts.format},           {"unit", facts.unit},
-          {"kinds", kinds},                   {"elements", facts.elements},
-          {"value_type", facts.value_type},   {"components", facts.components},
-          {"orientation", facts.orientation}, {"notes", facts.notes}};
+  return {{"format", facts.format},
+          {"unit", facts.unit},
+          {"kinds", kinds},
+          {"elements", facts.elements},
+          {"value_type", facts.value_type},
+          {"components", facts.components},
+          {"orientation", facts.orientation},
+          {"notes", facts.notes}};
 }
 
 nlohmann::json read_particles(const std::string& data, const std::string& out) {

@@ -36,13 +36,13 @@ bool starts_with_any(std::string_view text, std::span<const std::string_view> st
 std::optional<Kind> kind_of(std::string_view operation) {
   static constexpr std::array<std::string_view, 2> branches{"s_branch", "s_cbranch"};
   static constexpr std::array<std::string_view, 13> waits{
-      "s_wait",   "s_nop",     "s_endpgm", "s_clause",  "s_delay_alu", "s_sendmsg", "s_barrier",
-      "s_sleep",  "s_setprio", "s_inst_",  "s_icache",  "s_code_end",  "s_ttrace"};
+      "s_wait",  "s_nop",     "s_endpgm", "s_clause", "s_delay_alu", "s_sendmsg", "s_barrier",
+      "s_sleep", "s_setprio", "s_inst_",  "s_icache", "s_code_end",  "s_ttrace"};
   static constexpr std::array<std::string_view, 8> scalar_memory{
-      "s_load",  "s_buffer_", "s_store",  "s_scratch_",
+      "s_load",   "s_buffer_", "s_store",  "s_scratch_",
       "s_dcache", "s_memtime", "s_atomic", "s_prefetch"};
   static constexpr std::array<std::string_view, 7> loads{
-      "image_sample", "image_load",   "image_gather", "buffer_load",
+      "image_sample", "image_load",  "image_gather", "buffer_load",
       "tbuffer_load", "global_load", "flat_load"};
   static constexpr std::array<std::string_view, 9> other_memory{
       "image_", "buffer_", "tbuffer_", "global_", "flat_", "scratch_", "ds_", "lds_", "exp"};

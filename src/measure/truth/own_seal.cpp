@@ -27,7 +27,7 @@ std::string text_of(const std::array<std::uint8_t, 32>& hash) {
 // Returns the key, or an empty string if there is no key that only this user can read.
 std::string read_key(const core::PrivateFolder& folder) {
   const FileDescriptor file(::openat(folder.fd(), "key", O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
-  struct stat status{};
+  struct stat status {};
   if (!file || ::fstat(file.get(), &status) != 0) return {};
   const bool own = status.st_uid == ::geteuid() && (status.st_mode & 077) == 0;
   std::string key(key_bytes, '\0');
@@ -45,8 +45,8 @@ void make_key(const core::PrivateFolder& folder) {
   const FileDescriptor file(::openat(folder.fd(), aside.c_str(),
                                      O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
   if (!file) return;
-  const bool written = ::write(file.get(), key.data(), key.size()) ==
-                       static_cast<ssize_t>(key.size());
+  const bool written =
+      ::write(file.get(), key.data(), key.size()) == static_cast<ssize_t>(key.size());
   if (written) static_cast<void>(::linkat(folder.fd(), aside.c_str(), folder.fd(), "key", 0));
   static_cast<void>(::unlinkat(folder.fd(), aside.c_str(), 0));
 }

@@ -119,8 +119,8 @@ void add_store(const fs::path& file, std::size_t index, std::size_t count,
   const std::vector<Run> latest = latest_runs(store);
   older += store.runs().size() - latest.size();
   for (const Run& run : latest) {
-    const auto [found, is_new] =
-        plans.try_emplace(run.plan, Growing{{run, file}, run, std::vector<std::string>(count), {}, {}});
+    const auto [found, is_new] = plans.try_emplace(
+        run.plan, Growing{{run, file}, run, std::vector<std::string>(count), {}, {}});
     Growing& plan = found->second;
     require_same_plan(plan.first, run, file);
     add(run, plan.sum);

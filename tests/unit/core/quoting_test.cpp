@@ -52,8 +52,9 @@ const std::vector<std::string> hostile_words{"ev$(touch x)`id`",
 // Returns the installed shells, into which people may paste commands.
 std::vector<std::string> shells() {
   std::vector<std::string> found;
-  for (const std::string& shell : {std::string("dash"), std::string("bash"), std::string("zsh -f"),
-                                   std::string("busybox sh"), std::string("ksh"), std::string("sh")}) {
+  for (const std::string& shell :
+       {std::string("dash"), std::string("bash"), std::string("zsh -f"), std::string("busybox sh"),
+        std::string("ksh"), std::string("sh")}) {
     if (test::run_command(shell + " -c :").code == 0) found.push_back(shell);
   }
   return found;
@@ -92,9 +93,9 @@ TEST(ShellEnvironment, IsReadByEveryShellWhateverTheNames) {
       // Each entry contains a '=', so `env` does not mistake it for an option.
       const std::string name = "V" + hostile;
       const std::array words{std::string("printenv"), name};
-      EXPECT_EQ(read_back(shell, shell_environment({{"A", "1"}, {name, hostile}}) +
-                                     shell_command(words)),
-                hostile + "\n")
+      EXPECT_EQ(
+          read_back(shell, shell_environment({{"A", "1"}, {name, hostile}}) + shell_command(words)),
+          hostile + "\n")
           << shell;
     }
   }

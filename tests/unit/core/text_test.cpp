@@ -19,8 +19,8 @@ TEST(Text, ALineIsUtf8WithoutControlCharacters) {
   for (const auto line : {""sv, "a b"sv, "größe"sv, "\u9AD4\U0001F9CA"sv, "\U0010FFFD"sv}) {
     EXPECT_TRUE(is_line(line)) << line;
   }
-  for (const auto line : {"a\nb"sv, "a\0b"sv, "\x7f"sv, "\x1b[2J"sv, "\u0085"sv, "\u2028"sv, "\u202E"sv,
-                          "\u2066"sv, "\uFEFF"sv, "\U000E0041"sv}) {
+  for (const auto line : {"a\nb"sv, "a\0b"sv, "\x7f"sv, "\x1b[2J"sv, "\u0085"sv, "\u2028"sv,
+                          "\u202E"sv, "\u2066"sv, "\uFEFF"sv, "\U000E0041"sv}) {
     EXPECT_FALSE(is_line(line)) << line;
   }
 }

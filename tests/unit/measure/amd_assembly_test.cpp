@@ -70,10 +70,9 @@ TEST(AmdAssembly, ALoopWithASamplerIsPreferred) {
 }
 
 TEST(AmdAssembly, TwoSamplingLoopsAreAmbiguous) {
-  const std::string loop =
-      "\timage_sample v1, v[0:2], s[0:7], s[8:11]\n\ts_cbranch_scc1 ";
-  const auto counts = count_amd_instructions("BB1:\n" + loop + "BB1\nBB2:\n" + loop +
-                                             "BB2\n\ts_endpgm\n");
+  const std::string loop = "\timage_sample v1, v[0:2], s[0:7], s[8:11]\n\ts_cbranch_scc1 ";
+  const auto counts =
+      count_amd_instructions("BB1:\n" + loop + "BB1\nBB2:\n" + loop + "BB2\n\ts_endpgm\n");
   ASSERT_TRUE(counts);
   EXPECT_FALSE(counts->sampling_loop);
   EXPECT_EQ(counts->sampling_loops, 2);

@@ -165,6 +165,5 @@ TEST_F(PlanTest, TooManyCombinations) {
   EXPECT_THAT(refusal(yaml), AllOf(StartsWith(at(3, 1)), HasSubstr("1000000 combinations")));
 }
 
-
 }  // namespace
 }  // namespace triptych::measure

@@ -100,8 +100,7 @@ TEST(Plausible, NeedsATimePerFrameAboveZeroAndWithinTheWallTime) {
 }
 
 TEST(Plausible, ToleratesLaunchesAndLateWakeUpsButNotMissingWork) {
-  EXPECT_TRUE(
-      plausible({0.05 * millisecond}, {0.3 * millisecond}));  // a launch may take this long
+  EXPECT_TRUE(plausible({0.05 * millisecond}, {0.3 * millisecond}));  // a launch may take this long
   EXPECT_FALSE(plausible({0.05 * millisecond},
                          // No launch takes this long, so work is missing from the device time.
                          {1.3 * millisecond}));

@@ -20,7 +20,7 @@ struct FloatOptions {
                                        const FloatOptions& options);
 
 struct FloatCounts {
-  double hits = 0;     // number of rays that hit the volume
+  double hits = 0;  // number of rays that hit the volume
   // Number of samples, and number of samples with non-zero opacity.
   double samples = 0;
   double nonzero = 0;

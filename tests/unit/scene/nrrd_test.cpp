@@ -154,16 +154,16 @@ TEST(Nrrd, ReadsDataFromSeveralFiles) {
   folder.write("s10.raw", "xB");
   for (const char* files : {"s%02d.raw 9 10 1", "s%02d.raw 9 10 1 2", "LIST\ns09.raw\ns10.raw",
                             "LIST 2\ns09.raw\n\ns10.raw"}) {
-    const Volume volume = read_nrrd(
-        folder.write("a.nhdr", minimal + "byte skip: 1\ndata file: " + files + "\n"));
+    const Volume volume =
+        read_nrrd(folder.write("a.nhdr", minimal + "byte skip: 1\ndata file: " + files + "\n"));
     EXPECT_EQ(volume.value(0), 'A') << files;
     EXPECT_EQ(volume.value(1), 'B') << files;
   }
   folder.write("s10.raw", "xBC");
   EXPECT_THAT(
       [&] {
-        (void)read_nrrd(folder.write(
-            "a.nhdr", minimal + "byte skip: 1\ndata file: s%02d.raw 9 10 1\n"));
+        (void)read_nrrd(
+            folder.write("a.nhdr", minimal + "byte skip: 1\ndata file: s%02d.raw 9 10 1\n"));
       },
       ThrowsMessage<core::InputError>(HasSubstr("s10.raw holds more (data after the end)")));
 }

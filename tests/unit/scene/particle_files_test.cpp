@@ -103,8 +103,8 @@ TEST(Pdb, RejectsBrokenFiles) {
   expect_refused("a.pdb", replaced(pdb, "END\n", ""), ":5:", "expected END");
   expect_refused("a.pdb", "REMARK\n", ":1:", "found none");
   const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
-  for (const std::string head :
-       {"TITLE     A PROTEIN\n", "CRYST1   52.000   58.600   61.900\n", "HEADER    VESTA_phase_1\n"}) {
+  for (const std::string head : {"TITLE     A PROTEIN\n", "CRYST1   52.000   58.600   61.900\n",
+                                 "HEADER    VESTA_phase_1\n"}) {
     // Several programs write complete files without END, so only entries of the PDB itself must end
     // with it.
     EXPECT_EQ(load("a.pdb", head + atom).count(), 1U);
@@ -250,8 +250,8 @@ TEST(Xyz, TakesColumnsFromProperties) {
   expect_refused("a.xyz", with("Properties=id:I:1:pos:R:3"),
                  ":2:", "expected Properties with species or Z (1 column) and pos (3 columns)");
   expect_refused("a.xyz", with("Properties=species:S:1:pos:R:2"), ":2:", "and pos (3 columns)");
-  for (const char* broken : {"", "species:S", "species:S:1:pos:R:three", "species:S:0:pos:R:3",
-                             "species:X:1:pos:R:3"}) {
+  for (const char* broken :
+       {"", "species:S", "species:S:1:pos:R:three", "species:S:0:pos:R:3", "species:X:1:pos:R:3"}) {
     expect_refused("a.xyz", with(std::string("Properties=") + broken),
                    ":2:", "expected Properties=NAME:TYPE:COUNT:…");
   }

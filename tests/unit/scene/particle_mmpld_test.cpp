@@ -171,10 +171,10 @@ TEST(Mmpld, DropsAndCountsInvalidSpheres) {
 
 TEST(Mmpld, RejectsFilesWithoutSpheres) {
   const std::string flat = list(100, 1, 0, pack(0.F, 0), 3, std::string(36, '\0'));
-  EXPECT_THAT([&] { load_mmpld(file(100, {frame(100, {flat})})); },
-              ThrowsMessage<core::InputError>(
-                  AllOf(HasSubstr("a.mmpld: none of the 3 particles can be drawn"),
-                        HasSubstr("radii above 0"))));
+  EXPECT_THAT(
+      [&] { load_mmpld(file(100, {frame(100, {flat})})); },
+      ThrowsMessage<core::InputError>(AllOf(
+          HasSubstr("a.mmpld: none of the 3 particles can be drawn"), HasSubstr("radii above 0"))));
 }
 
 TEST(Mmpld, RejectsEveryTruncation) {

@@ -92,12 +92,14 @@ TEST(OptionReason, RaysHaveTheFaultsOfBoxesAndDepths) {
   const auto refused = [](ParticleFault fault) {
     return !reason("bvh", {.conservative_depth = true, .fault = fault}).empty();
   };
-  for (const ParticleFault fault : {ParticleFault::small_box, ParticleFault::wrong_sense,
-                                    ParticleFault::unresolved_ties, ParticleFault::reversed_depth}) {
+  for (const ParticleFault fault :
+       {ParticleFault::small_box, ParticleFault::wrong_sense, ParticleFault::unresolved_ties,
+        ParticleFault::reversed_depth}) {
     EXPECT_FALSE(refused(fault));
   }
-  for (const ParticleFault fault : {ParticleFault::small_sprite, ParticleFault::culled_visible,
-                                    ParticleFault::lost_at_border, ParticleFault::missing_barrier}) {
+  for (const ParticleFault fault :
+       {ParticleFault::small_sprite, ParticleFault::culled_visible, ParticleFault::lost_at_border,
+        ParticleFault::missing_barrier}) {
     EXPECT_TRUE(refused(fault));
   }
   EXPECT_THAT(reason("tiles", {.fault = ParticleFault::small_box}), HasSubstr("boxes"));
