@@ -10,6 +10,7 @@
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "app/verdicts.hpp"
+#include "core/error.hpp"
 #include "core/glob.hpp"
 #include "core/output_files.hpp"
 #include "measure/worker/own_program.hpp"
@@ -31,6 +32,9 @@ struct TestsArguments {
 };
 
 core::ExitCode list_tests(const TestsArguments& arguments) {
+  if (arguments.plans.empty() && arguments.large.empty()) {
+    throw core::InputError("name a plan as PLAN or with --one-per-driver");
+  }
   const Registry registry = make_registry();
   measure::Listing listing = registry.devices(arguments.devices);
   std::erase_if(listing.devices, [&](const record::Device& device) {
@@ -107,7 +111,7 @@ core::ExitCode check(const CheckArguments& arguments) {
 void add_test_commands(Commands& commands) {
   auto [tests, listed] = commands.add(
       "ctest", "Write a CTest file that tests the devices of this machine", list_tests);
-  tests.add_option("PLAN", listed.plans, "Plans to test: YAML files, or SUITE/PLAN")->required();
+  tests.add_option("PLAN", listed.plans, "Plans to test: YAML files, or SUITE/PLAN");
   tests.add_option("--one-per-driver", listed.large,
                    "Measure this plan on only one device per driver (repeatable)");
   tests.add_option("--device", listed.devices,

@@ -158,7 +158,7 @@ TEST_F(Compare, WrongUsageIsReportedInOneLine) {
 TEST_F(Compare, AnotherProgramCanServeSideB) {
   expect_verdict(compare(b_as(1), "--b-program " TRIPTYCH_PROGRAM), 0, "PASS: 1 same");
   expect_verdict(compare(b_as(1), "--b-program /bin/true"), 3,
-                 "--b-program /bin/true: is not a build of triptych");
+                 "--b-program /bin/true: this program is not a build of triptych");
 }
 
 TEST_F(Compare, SideBySideNeedsAStoreWithTwoDevices) {

@@ -157,7 +157,7 @@ TEST(Error, MustBePositiveAndNeedsASuiteWithAStep) {
       << unknown.output;
   const Result particles = program.run("run particles/quick --device 'null:*' --error 0.01");
   EXPECT_EQ(particles.code, 3) << particles.output;
-  EXPECT_NE(particles.output.find("suite particles has no step"), std::string::npos)
+  EXPECT_NE(particles.output.find("suite particles has no factor step"), std::string::npos)
       << particles.output;
 }
 

@@ -54,7 +54,7 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
   const Result judged = program.run(judge_from("s.sqlite"));
   EXPECT_EQ(judged.code, 2) << judged.output;
   const std::string words = judged.output.substr(judged.output.find("triptych accept"));
-  EXPECT_TRUE(std::regex_search(words, std::regex("^triptych accept volume/quick\\s+--store\\s+"
+  EXPECT_TRUE(std::regex_search(words, std::regex("^triptych accept\\s+volume/quick\\s+--store\\s+"
                                                   "s.sqlite\\s+--baselines\\s+baselines\\s")))
       << judged.output;
 }

@@ -101,7 +101,8 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
   auto* loader = loader_info<VkLayerInstanceCreateInfo>(
       info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
   const bool only_limits = std::ranges::all_of(changes(), known_limit, &Change::name);
-  if (!only_limits && !known_fault(requested())) {
+  const bool one_fault = changes().size() == 1 && known_fault(changes().front().name);
+  if (!only_limits && !one_fault) {
     std::fprintf(stderr, "layer: TRIPTYCH_LAYER=%s is neither a list of limits nor a fault\n",
                  requested().c_str());
     return VK_ERROR_INITIALIZATION_FAILED;

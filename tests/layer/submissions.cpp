@@ -75,6 +75,8 @@ VKAPI_ATTR void VKAPI_CALL destroy_pipeline(VkDevice, VkPipeline, const VkAlloca
 
 // Runs at the end of the process, when the library is unloaded.
 struct AtExit {
+  // The changes are parsed before this object exists, so that they are destroyed after it.
+  AtExit() { static_cast<void>(changes()); }
   ~AtExit() {
     if (asked("crash_at_exit") && submissions > 0) crash();
   }
