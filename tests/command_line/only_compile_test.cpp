@@ -132,8 +132,8 @@ TEST_F(OnlyCompile, ARequiredFamilyThatCannotBeUsedIsNotAPass) {
   const Result judged = on("gate compiled.yaml --json" + required);
   EXPECT_EQ(judged.code, 2) << judged.output;
   std::vector<core::Json> found;
-  const core::Json plans = core::Json::parse(judged.output);
-  for (const core::Json& finding : plans.front().at("findings")) {
+  const core::Json result = core::Json::parse(judged.output);
+  for (const core::Json& finding : result.at("findings")) {
     if (finding.at("cause") == "no_required_device") found.push_back(finding);
   }
   ASSERT_EQ(found.size(), 1U) << judged.output;
