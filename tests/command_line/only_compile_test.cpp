@@ -80,7 +80,7 @@ TEST_F(OnlyCompile, AnUnknownFamilyIsReportedInOneLine) {
       << result.output;
   EXPECT_NE(result.output.find("vulkan:radv-nosuch: the installed driver"), std::string::npos)
       << result.output;
-  EXPECT_NE(result.output.find("know this GPU family"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("not support this GPU family"), std::string::npos) << result.output;
 }
 
 // The fault `flipped_axis` adds one arithmetic operation to each sample of a ray, and
