@@ -49,7 +49,10 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
 }
 
 void write_text(const fs::path& file, const std::string& text) {
-  require_writable(file.parent_path());
+  // A pipe or a device such as /dev/null is written in place, so its folder need not be writable.
+  std::error_code error;
+  const bool in_place = fs::exists(file, error) && !fs::is_regular_file(file, error);
+  if (!in_place) require_writable(file.parent_path());
   write_file(text, file);
 }
 

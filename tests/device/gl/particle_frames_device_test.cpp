@@ -271,11 +271,11 @@ TEST(GlParticleFrames, UnsupportedOptionsAreRejectedWithAReason) {
     EXPECT_THAT(reason("quad_ray", {.fault = ParticleFault::missing_barrier}),
                 HasSubstr("work-group barriers"));
     EXPECT_THAT(reason("quad_ray", {.fault = ParticleFault::wrong_sense}),
-                HasSubstr("conservative depth"));
+                HasSubstr("conservative_depth=on"));
     EXPECT_THAT(
         reason("quad_ray", {.culling = Culling::none, .fault = ParticleFault::culled_visible}),
         HasSubstr("culling"));
-    EXPECT_THAT(reason("point", {.ray = ComputedAt::vertex}), HasSubstr("per pixel"));
+    EXPECT_THAT(reason("point", {.ray = ComputedAt::vertex}), HasSubstr("ray=pixel"));
     EXPECT_THAT(reason("raycast", {}), HasSubstr("volumes"));
     EXPECT_THAT(device.unsupported(make_work("quad_ray", make_scene({}))).value_or(""),
                 HasSubstr("particles"));

@@ -127,7 +127,7 @@ TEST(Exr, ReportsTheMissingChannel) {
     out.writePixels(1);
   }
   EXPECT_THAT([&] { (void)read_exr(file); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("rgb.exr: "), HasSubstr("no channel A"))));
+              ThrowsMessage<InputError>(AllOf(HasSubstr("rgb.exr: "), HasSubstr("channel A is missing"))));
 }
 
 TEST(Exr, EveryTruncationIsReportedInOneLine) {

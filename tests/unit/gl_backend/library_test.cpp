@@ -32,7 +32,7 @@ TEST(Library, AMissingFunctionIsNullOrAnError) {
     static_cast<void>(library.get<void (*)()>("triptych_no_such_function"));
     ADD_FAILURE() << "found";
   } catch (const core::NotSupported& error) {
-    EXPECT_STREQ(error.what(), "libc.so.6 has no triptych_no_such_function");
+    EXPECT_STREQ(error.what(), "libc.so.6 lacks the function triptych_no_such_function");
   }
 }
 

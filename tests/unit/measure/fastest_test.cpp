@@ -101,9 +101,10 @@ TEST_F(FastestTest, ReportsUnsupportedTechniques) {
   skipped.outcome = record::Outcome::skipped;
   EXPECT_THAT(text(), HasSubstr("; not drawn: raycast_fragment"));
   records_.front().outcome = record::Outcome::failed;
-  EXPECT_THAT(text(),
-              HasSubstr("no technique was measured, so none can be chosen; not drawn: raycast, "
-                        "raycast_fragment"));
+  EXPECT_THAT(
+      text(),
+      HasSubstr("no technique was measured, so none can be recommended; not drawn: raycast, "
+                "raycast_fragment"));
 }
 
 TEST_F(FastestTest, CandidatesForTheFastestAreMeasuredAgain) {

@@ -100,11 +100,11 @@ TEST_F(StoreTest, OtherSchemaVersion) {
 TEST_F(StoreTest, UnknownDatabaseObjectsAreRejected) {
   const std::vector<std::pair<std::string, std::string>> attacks{
       {"CREATE TRIGGER hide AFTER INSERT ON device_fault BEGIN DELETE FROM device_fault; END",
-       "has the trigger hide"},
+       "contains the trigger hide"},
       {"ALTER TABLE record RENAME TO kept; CREATE VIEW record AS SELECT * FROM kept",
        "measure again and store the results in another file"},
-      {"CREATE VIEW x AS SELECT * FROM record", "has the view x"},
-      {"CREATE INDEX x ON record (outcome) WHERE outcome = 'measured'", "has the index x"},
+      {"CREATE VIEW x AS SELECT * FROM record", "contains the view x"},
+      {"CREATE INDEX x ON record (outcome) WHERE outcome = 'measured'", "contains the index x"},
       {"DROP INDEX run_of_plan", "index run_of_plan is missing"},
       {"DROP TABLE device_fault; CREATE TABLE device_fault (seq INTEGER PRIMARY KEY, device, kind "
        "DEFAULT 'x', subject, detail, last_words)",
@@ -226,7 +226,7 @@ TEST_F(StoreTest, ReadOnlyFolder) {
   std::filesystem::permissions(file_, Perms::owner_all | Perms::others_all);
   std::filesystem::permissions(folder_, read_only_folder);
   EXPECT_THAT(as_nobody([&] { return refusal<core::IoError>(folder_ / "new", Mode::append); }),
-              HasSubstr("its folder exists and can be written"));
+              HasSubstr("its folder exists and is writable"));
   EXPECT_THAT(as_nobody([&]() -> std::string {
                 Store store(file_, Mode::append);
                 store.add_run(sample_run("x"));

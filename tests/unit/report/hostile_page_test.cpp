@@ -58,6 +58,7 @@ bool is_known_attribute(const std::string& name) {
                                            "scope",
                                            "src",
                                            "style",
+                                           "tabindex",
                                            "stroke-dasharray",
                                            "stroke-width",
                                            "text-anchor",

@@ -23,7 +23,8 @@ TEST(Html, MarkupEscapesItsArguments) {
   EXPECT_EQ(markup("<p id=\"{}\">{}{}</p>", name, inner, 3).text(),
             "<p id=\"&lt;script&gt;&quot;\"><b>&lt;script&gt;&quot;</b>3</p>");
   EXPECT_EQ(table({{name}, {inner}}).text(),
-            "<div class=\"scroll\"><table class=\"\">\n<tr><th>&lt;script&gt;&quot;</th></tr>\n"
+            "<div class=\"scroll\" tabindex=\"0\"><table "
+            "class=\"\">\n<tr><th>&lt;script&gt;&quot;</th></tr>\n"
             "<tr><td><b>&lt;script&gt;&quot;</b></td></tr>\n</table></div>\n");
 }
 

@@ -78,7 +78,8 @@ TEST(Dat, BrokenFilesAreReportedWithTheirLine) {
   expect(start + "Format: UCHAR\n\x1b[2J: 1\n", ":4: unknown key '\uFFFD[2J'; expected");
   expect(start + "Format: UCHAR\nFormat: UCHAR\n", ":4: key 'format' is given twice");
   expect(start + "Format: UCHAR\nSliceThickness: 1 nan 1\n", ":4: spacing nan");
-  expect(start + "Format: UCHAR\nSliceThickness: 1 1 0.7e30\n", ":4: spacing 7e+29 along 2 voxels");
+  expect(start + "Format: UCHAR\nSliceThickness: 1 1 0.7e30\n",
+         ":4: spacing 7e+29 is out of range for an axis of 2 voxels");
   expect(start + "Format: UCHAR\nEndianness: MIDDLE\n", ":4: unknown endianness 'MIDDLE'");
   expect(start + "Format: USHORT\n",
          ":2: 1 x 1 x 2 voxels of u16 need 4 bytes of data, but a.raw hol");

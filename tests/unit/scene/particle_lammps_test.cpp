@@ -133,7 +133,7 @@ TEST(LammpsData, RejectsBrokenFiles) {
   expect_refused("a.lmp", data("Atoms", rows + "\n", "3"),
                  ":16:", "the section ends after 2 atoms; expected 3 atoms");
   expect_refused("a.data", data("Atoms # hybrid", rows), ":12:", "found 'hybrid'");
-  expect_refused("a.data", data("Atoms # full", rows), ":14:", "expected 7 or");
+  expect_refused("a.data", data("Atoms # full", rows), ":14:", "expected 7 columns, or 10");
   expect_refused("a.data", data("Atoms", "1 1 0.5 1 2 3\n2 1 0.5 1 2 3\n"),
                  ":14:", "the atom style is ambiguous for 6 columns");
   // These rows fit both the style `full` and the style `sphere`, the first without and the second

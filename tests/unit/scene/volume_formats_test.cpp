@@ -196,7 +196,7 @@ TEST(NiftiFiles, MayBePairs) {
 
 TEST(NiftiFiles, ReportTheCauseOfAnError) {
   const auto nifti = [] { return Nifti(1, false).dims({2, 1, 1}).type(2); };
-  expect_volume_refused("a.nii", "short", "has 5 bytes");
+  expect_volume_refused("a.nii", "short", "has only 5 bytes");
   expect_volume_refused("a.nii", std::string(400, 'x'),
                         "first 4 bytes do not contain a header size");
   expect_volume_refused("a.nii", nifti().with("A"), "need 2 bytes of data");
@@ -261,7 +261,7 @@ TEST(MetaImage, ReportsTheLineOfAnError) {
   expect_volume_refused("a.mha", meta + "ElementType = MET_WORD\nElementDataFile = LOCAL\nAB",
                         ":5: type 'MET_WORD' is not supported");
   expect_volume_refused("a.mha", "NDims = 2\nDimSize = 2 1\nElementDataFile = LOCAL\n",
-                        ":1: 2 dimensions");
+                        ":1: the volume has 2 dimensions");
   expect_volume_refused("a.mha", "ObjectType = Mesh\nElementDataFile = LOCAL\n",
                         ":1: the object type 'Mesh' is not a volume");
   expect_volume_refused("a.mha", meta + "ElementDataFile =\n", "the data file '' does not exist");
