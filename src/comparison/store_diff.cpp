@@ -110,6 +110,10 @@ class Diffing {
                 a.device.id,
                 DeviceChange{.a = a.device, .b = b.device, .device = {}, .configurations = {}})
             .first->second;
+    // Totals belong to a plan, and the other differences to the device.
+    for (Difference& each : diff.device) {
+      if (each.subject == Subject::code_total) each.name = fmt::format("{} {}", plan, each.name);
+    }
     add_new(diff.device, change.device);
     for (ConfigurationDiff& each : diff.configurations) {
       each.key = fmt::format("{} {}", plan, each.key);
