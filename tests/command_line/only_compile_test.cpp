@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 
 #include "core/json.hpp"
@@ -102,6 +104,7 @@ TEST_F(OnlyCompile, AnInjectedFaultIsFoundOnEveryFamily) {
   ASSERT_EQ(
       program.run("accept rays.yaml tiles.yaml --reason new --baselines b --store s.sqlite").code,
       0);
+  std::filesystem::copy_file(program.folder() / "s.sqlite", program.folder() / "before.sqlite");
   ASSERT_EQ(program.run("run rays.yaml --inject flipped_axis" + all).code, 0);
   ASSERT_EQ(program.run("run tiles.yaml --inject unresolved_ties" + all).code, 0);
   const Result judged =
@@ -127,6 +130,17 @@ TEST_F(OnlyCompile, AnInjectedFaultIsFoundOnEveryFamily) {
     EXPECT_THAT(changes["tiles_index.comp instructions per iteration"], AllOf(Ge(1), Le(2)))
         << device;
   }
+  // The totals of each plan are listed separately.
+  std::set<std::string> totals;
+  const Result diff = program.run("diff before.sqlite s.sqlite --json");
+  const core::Json differences = core::Json::parse(diff.output);
+  for (const core::Json& device : differences.at("devices")) {
+    for (const core::Json& each : device.at("differences")) {
+      if (each.at("cause") == "code_total") totals.insert(each.at("about"));
+    }
+  }
+  EXPECT_TRUE(totals.contains("code total rays Instrs")) << diff.output;
+  EXPECT_TRUE(totals.contains("code total tiles Instrs")) << diff.output;
 }
 
 // The verdict states why a required family was not measured.
