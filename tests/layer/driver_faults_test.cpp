@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <regex>
 #include <vector>
 
@@ -13,13 +14,16 @@ namespace {
 
 using testing::HasSubstr;
 
+// Whether some configurations lose all pixels, which is detected before images are compared. If a
+// copy is too short, the result depends on what the driver's memory contained before.
+enum class Undrawn : std::uint8_t { no, yes, perhaps };
+
 struct Fault {
   const char* name;
   const char* plan;
   const char* told;  // the first reported cause
   int causes = 1;
-  // Some configurations lose all pixels, which is detected before images are compared.
-  bool undrawn = false;
+  Undrawn undrawn = Undrawn::no;
 };
 
 const std::vector<Fault>& faults() {
@@ -29,7 +33,8 @@ const std::vector<Fault>& faults() {
       {"no_depth_write", particles, "image: vulkan:lavapipe", 2},
       {"culled_front", particles,
        "image: vulkan:lavapipe, culling=occlusion, viewport=64 (4 configurations)"},
-      {"culled_back", volume, "image: vulkan:lavapipe, technique=raycast_fragment", 1, true},
+      {"culled_back", volume, "image: vulkan:lavapipe, technique=raycast_fragment", 1,
+       Undrawn::yes},
       {"lost_alpha", particles, "image: vulkan:lavapipe"},
       {"lost_alpha", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
       {"unspecialized", volume, "counters: vulkan:lavapipe", 2},
@@ -37,7 +42,7 @@ const std::vector<Fault>& faults() {
       {"repeated_edge", volume,
        "image: vulkan:lavapipe, data=generate:marschner_lobb:16, sampler=hardware", 2},
       {"short_draw", particles, "counters: vulkan:lavapipe, culling=none", 2},
-      {"short_draw", volume, "image: vulkan:lavapipe, technique=raycast_fragment", 1, true},
+      {"short_draw", volume, "image: vulkan:lavapipe, technique=raycast_fragment", 1, Undrawn::yes},
       {"short_indirect", particles, "image: vulkan:lavapipe, culling=occlusion"},
       {"short_dispatch", volume, "image: vulkan:lavapipe, technique=raycast"},
       {"short_scissor", volume, "image: vulkan:lavapipe, technique=raycast_fragment"},
@@ -45,7 +50,7 @@ const std::vector<Fault>& faults() {
       {"push_off_by_one", particles, "image: vulkan:lavapipe, culling=occlusion, technique=tiles"},
       {"clear_colour", particles, "image: vulkan:lavapipe"},
       {"clear_depth", particles, "image: vulkan:lavapipe"},
-      {"short_copy", volume, "image: vulkan:lavapipe", 3, true},
+      {"short_copy", volume, "image: vulkan:lavapipe", 3, Undrawn::perhaps},
       {"image_row", particles, "image: vulkan:lavapipe"},
       {"volume_slice", volume, "image: vulkan:lavapipe"},
   };
@@ -81,7 +86,10 @@ class DriverFaults : public LayerTest {
       if (each.plan != plan) continue;
       SCOPED_TRACE(each.name);
       const test::Result drawn = layered.draw(each.name, plan);
-      EXPECT_THAT(drawn.output, HasSubstr(each.undrawn ? "pixels was written" : " 0 failed"));
+      if (each.undrawn != Undrawn::perhaps) {
+        EXPECT_THAT(drawn.output,
+                    HasSubstr(each.undrawn == Undrawn::yes ? "pixels was written" : " 0 failed"));
+      }
       const test::Result judged = layered.judge(plan);
       EXPECT_EQ(judged.code, 1);
       EXPECT_THAT(judged.output, HasSubstr(fmt::format("\n  ✗ {}", each.told)));
