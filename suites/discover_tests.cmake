@@ -3,10 +3,10 @@
 # has not been built or cannot list the devices, the script registers a test that fails.
 #
 # Every device measures the quick plans. To save time, the other plans are measured on only one device per driver, and the
-# plans that judge images alone are not measured with Vulkan, whose shaders share their source with OpenGL and which takes
+# plans `stress` and `accuracy` are not measured with Vulkan. Its shaders share their source with OpenGL, but the plans take
 # three times as long, because lavapipe needs 0.2 s to create a pipeline. If the environment variable TRIPTYCH_EVERY_DEVICE is
 # set, as in the nightly run, every device measures every plan.
-# Variable set by the caller: TRIPTYCH_PROGRAM, TRIPTYCH_TEST_FOLDER.
+# Variables set by the caller: TRIPTYCH_PROGRAM, TRIPTYCH_TEST_FOLDER.
 if(NOT EXISTS "${TRIPTYCH_PROGRAM}")
   add_test(triptych.not_built "${TRIPTYCH_PROGRAM}")
   return()

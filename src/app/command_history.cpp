@@ -29,7 +29,7 @@ core::ExitCode history(const HistoryArguments& arguments) {
     std::vector<core::NamedFile> read;
     for (const std::string& store : arguments.stores) read.push_back({"STORE", store});
     core::refuse_overwriting(read, {{"--out", arguments.out}});
-    core::require_writable(std::filesystem::path(arguments.out).parent_path());
+    core::require_writable_file(arguments.out);
   }
   const Registry registry = make_registry();
   std::vector<record::Store> stores;

@@ -25,7 +25,7 @@ void require_file(std::string_view option, const std::string& file) {
   if (std::filesystem::is_directory(file)) {
     throw core::InputError(fmt::format("{} {} is a folder; name a file in it", option, file));
   }
-  core::require_writable(std::filesystem::path(file).parent_path());
+  core::require_writable_file(file);
 }
 
 core::ExitCode write_report(const ReportArguments& arguments) {

@@ -230,10 +230,8 @@ measure::Listing listing_for(const Measuring& measuring, const Registry& registr
   });
   if (more.empty()) return listing;
   measure::Listing compilers = measure::list_compilers(more);
-  if (measuring.devices.empty()) {
-    std::ranges::move(compilers.devices, std::back_inserter(listing.devices));
-  }
-  std::ranges::move(compilers.broken, std::back_inserter(listing.broken));
+  if (!measuring.devices.empty()) compilers.devices.clear();
+  measure::append(listing, std::move(compilers));
   return listing;
 }
 

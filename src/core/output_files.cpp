@@ -36,6 +36,12 @@ void require_writable(const fs::path& folder) {
   }
 }
 
+void require_writable_file(const fs::path& file) {
+  std::error_code error;
+  const bool in_place = fs::exists(file, error) && !fs::is_regular_file(file, error);
+  if (!in_place) require_writable(file.parent_path());
+}
+
 void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<NamedFile>& written) {
   std::vector<NamedFile> taken = read;
   for (const NamedFile& each : written) {
@@ -49,10 +55,7 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
 }
 
 void write_text(const fs::path& file, const std::string& text) {
-  // A pipe or a device such as /dev/null is written in place, so its folder need not be writable.
-  std::error_code error;
-  const bool in_place = fs::exists(file, error) && !fs::is_regular_file(file, error);
-  if (!in_place) require_writable(file.parent_path());
+  require_writable_file(file);
   write_file(text, file);
 }
 

@@ -13,6 +13,10 @@ namespace triptych::core {
 // this before measuring, so that no time is spent on results that cannot be stored.
 void require_writable(const std::filesystem::path& folder);
 
+// Like require_writable(), for the folder of an output file. A pipe or a device such as /dev/null
+// is written in place, so its folder need not be writable.
+void require_writable_file(const std::filesystem::path& file);
+
 // A file, and the name of the option or argument that specifies it.
 struct NamedFile {
   std::string_view name;

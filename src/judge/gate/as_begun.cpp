@@ -54,7 +54,7 @@ void report_failed_listings(const RunView& view, std::vector<Finding>& findings)
     if (found_all_that_was_asked(begun)) continue;
     for (const record::Unusable& each : begun.unusable) {
       const std::string api = each.api();
-      // If the device is required, Cause::no_required_device reports why it is missing.
+      // If the device is required, report_required_devices() reports why it is missing.
       const bool required = std::ranges::find(view.request.required_devices, each.what) !=
                             view.request.required_devices.end();
       const bool matters = each.ended && begun.asks_for_api(api) && !required;
@@ -157,7 +157,34 @@ void report_lost_checks(const RunView& view, std::vector<Finding>& findings) {
                                    {.cause = Cause::checks_lost, .names = lost}, view.accept()));
 }
 
+// Returns the first device that matches `glob` but was unusable in this run, or nullptr if there is
+// none.
+const record::Unusable* unusable_device(const RunView& view, const std::string& glob) {
+  for (const record::Beginning& begun : view.run.begun) {
+    for (const record::Unusable& each : begun.unusable) {
+      if (core::glob_matches(glob, each.what)) return &each;
+    }
+  }
+  return nullptr;
+}
+
 }  // namespace
+
+void report_required_devices(const RunView& view, std::vector<Finding>& findings) {
+  for (const std::string& glob : view.request.required_devices) {
+    const bool there = std::ranges::any_of(view.measured, [&](const record::Record* record) {
+      return core::glob_matches(glob, record->device);
+    });
+    if (there) continue;
+    Observation observation{.cause = Cause::no_required_device, .facts = {{"glob", glob}}};
+    if (const record::Unusable* found = unusable_device(view, glob)) {
+      observation.detail = found->reason;
+      if (found->ended) observation.reason = *found->ended;
+    }
+    findings.push_back(
+        finding_about(view, *view.checks.begin(), Verdict::cannot_judge, std::move(observation)));
+  }
+}
 
 void report_as_begun(const RunView& view, std::vector<Finding>& findings) {
   report_lost_checks(view, findings);

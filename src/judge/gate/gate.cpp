@@ -126,17 +126,6 @@ void report_device_faults(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-// Returns the first device that matches `glob` but was unusable in this run, or nullptr if there is
-// none.
-const record::Unusable* unusable_device(const RunView& view, const std::string& glob) {
-  for (const record::Beginning& begun : view.run.begun) {
-    for (const record::Unusable& each : begun.unusable) {
-      if (core::glob_matches(glob, each.what)) return &each;
-    }
-  }
-  return nullptr;
-}
-
 void report_nothing_measured(const RunView& view, const std::string& run,
                              std::vector<Finding>& findings) {
   const Check check = *view.checks.begin();
@@ -149,18 +138,7 @@ void report_nothing_measured(const RunView& view, const std::string& run,
                        .numbers = {{"records", static_cast<double>(view.records.size())}},
                        .facts = {{"run", run}, {"plan", view.request.plan}}}));
   }
-  for (const std::string& glob : view.request.required_devices) {
-    const bool there = std::ranges::any_of(view.measured, [&](const record::Record* record) {
-      return core::glob_matches(glob, record->device);
-    });
-    if (there) continue;
-    Observation observation{.cause = Cause::no_required_device, .facts = {{"glob", glob}}};
-    if (const record::Unusable* found = unusable_device(view, glob)) {
-      observation.detail = found->reason;
-      if (found->ended) observation.reason = *found->ended;
-    }
-    findings.push_back(finding_about(view, check, Verdict::cannot_judge, std::move(observation)));
-  }
+  report_required_devices(view, findings);
 }
 
 std::set<std::string> configurations_of(const RunView& view, const std::string& device) {

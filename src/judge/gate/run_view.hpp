@@ -82,6 +82,9 @@ struct AccuracyFindings {
 // Returns one finding for each record that has a score, including records that failed.
 [[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
 
+// Reports required devices that measured nothing, with the reason if the run recorded one.
+void report_required_devices(const RunView& view, std::vector<Finding>& findings);
+
 // Reports checks that the baselines contain but the plan no longer requests, devices that the run
 // does not describe, device enumerations that failed, and accepted devices that are missing.
 void report_as_begun(const RunView& view, std::vector<Finding>& findings);

@@ -192,8 +192,9 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
   // Turns off caches, because the driver does not report statistics for a program that it loads
   // from a cache.
   std::vector<std::string> environment{"MESA_SHADER_CACHE_DISABLE=true"};
+  std::string icd;
   if (!driver.icd.empty()) {
-    const std::string icd = find_icd(driver.icd, overrides);
+    icd = find_icd(driver.icd, overrides);
     if (icd.empty()) {
       throw core::NotSupported(
           fmt::format("no Vulkan driver file {}*.json was found; install the package "
@@ -203,10 +204,11 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
     environment.push_back("VK_DRIVER_FILES=" + icd);
     environment.push_back("VK_ICD_FILENAMES=" + icd);  // read by loaders before version 1.3.207
   }
-  const bool forced =
-      driver.name == "radv" && forces_family(find_icd(driver.icd, overrides), overrides);
-  if (forced) environment.push_back("RADV_FORCE_FAMILY=" + device->family);
-  if (!forced) add_stub(driver, device->family, overrides, environment);
+  if (driver.name == "radv" && forces_family(icd, overrides)) {
+    environment.push_back("RADV_FORCE_FAMILY=" + device->family);
+  } else {
+    add_stub(driver, device->family, overrides, environment);
+  }
   if (driver.name == "radeonsi") {
     // The driver reports statistics and disassembly for the shader stages that are listed here.
     environment.emplace_back("AMD_DEBUG=vs,tcs,tes,gs,ps,cs,asm");

@@ -156,13 +156,14 @@ std::vector<std::string> apis_of(const std::vector<std::string>& globs,
   return fit.empty() ? apis : fit;
 }
 
+void append(Listing& all, Listing more) {
+  std::ranges::move(more.devices, std::back_inserter(all.devices));
+  std::ranges::move(more.broken, std::back_inserter(all.broken));
+}
+
 Listing list_devices(const std::vector<std::string>& apis) {
   Listing all;
-  for (const std::string& api : apis) {
-    Listing one = list_one(api);
-    std::ranges::move(one.devices, std::back_inserter(all.devices));
-    std::ranges::move(one.broken, std::back_inserter(all.broken));
-  }
+  for (const std::string& api : apis) append(all, list_one(api));
   return all;
 }
 

@@ -17,6 +17,9 @@ namespace triptych::measure {
 [[nodiscard]] std::vector<std::string> apis_of(const std::vector<std::string>& globs,
                                                const std::vector<std::string>& apis);
 
+// Adds the devices and the errors of `more` to `all`.
+void append(Listing& all, Listing more);
+
 [[nodiscard]] Listing list_devices(const std::vector<std::string>& apis);
 
 // Returns the ids of the usual compile-only devices whose driver is installed. This function does
