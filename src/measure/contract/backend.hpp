@@ -102,8 +102,9 @@ struct VolumeKind {
   scene::VoxelFormat native = scene::VoxelFormat::f32;
   std::array<int, 3> size{1, 1, 1};
   std::optional<technique::Sampler> sampler = std::nullopt;  // the sampler set by the plan, if any
-  // Whether one filtered value is sufficient for each sample. This is not the case for shading, the
-  // quadrature `cells`, double precision, and volumes that are drawn in parts.
+  // Whether one filtered value is sufficient for each sample. This is not the case for shading, for
+  // the quadrature `cells` (which needs the eight voxels around a sample), for double precision,
+  // and for volumes that are drawn in parts (technique/volume/parts.hpp).
   bool filter_suffices = true;
   [[nodiscard]] bool may_be_packed() const {
     return sampler.value_or(technique::Sampler::packed) == technique::Sampler::packed;

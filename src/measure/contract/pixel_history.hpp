@@ -25,8 +25,8 @@ inline constexpr const char* not_traced =
     "quadrature=preintegrated";
 
 // A prepared work that can also draw a frame with a build of its device code that records the
-// samples of one pixel. This build also counts, because it has the same control flow as the
-// counting build.
+// samples of one pixel. This build is the counting build with additional code for recording, so it
+// also writes Triptych's counters.
 class TracesPixel {
  public:
   TracesPixel() = default;

@@ -1,6 +1,7 @@
 #pragma once
-// The names of stress data in plans: "stress:CASE" or "stress:CASE:VARIANT". If another factor,
-// such as the camera, has the level `own`, the stress case defines its value.
+// The names of stress data in plans: "stress:CASE" or "stress:CASE:VARIANT". A stress case is a
+// scene with which renderers often fail. If another factor, such as the camera, has the level
+// `own`, the stress case defines its value.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

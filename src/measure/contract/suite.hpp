@@ -121,8 +121,9 @@ struct Limit {
 // A suite with a reference renderer, which makes it possible to judge images.
 class SuiteWithTruth : public Suite {
  public:
-  // Returns the reference image and its bound. `precision` is Record::precision, which describes
-  // the device's path. Throws the same exceptions as Suite::work().
+  // Returns the reference image and its bound, which is the largest difference from the reference
+  // image that a correct device can produce in each pixel. `precision` is Record::precision: the
+  // properties of the device that determine the bound. Throws the same exceptions as Suite::work().
   [[nodiscard]] virtual accuracy::TruthPair truth(
       const Configuration& configuration, const std::map<std::string, double>& precision) = 0;
   // Returns the description that another program needs to draw the same frame: "viewport", "camera"
@@ -156,7 +157,8 @@ class SuiteWithTruth : public Suite {
   // Returns the limit of a configuration. Its limit_key() must not be empty.
   [[nodiscard]] virtual Limit limit(const Configuration&) { return {}; }
   // Returns the image that results from the closed-form solution, if the scene has one. It differs
-  // from the limit by the errors that the grid of the data and the finite tables introduce.
+  // from the limit by the errors of the voxel grid and of the lookup tables, whose resolution is
+  // finite.
   [[nodiscard]] virtual std::optional<core::Image> closed_form(const Configuration&) {
     return std::nullopt;
   }
