@@ -12,8 +12,9 @@ struct InstructionCounts {
   int scalar = 0;
   int memory = 0;  // loads (including scalar loads), stores, image samples, local-memory accesses
   int branch = 0;
-  int wait = 0;     // waits, scheduling hints, the end of the program
-  int fetches = 0;  // the part of `memory` that may sample a volume: loads from images and buffers
+  int wait = 0;  // waits, scheduling hints, the end of the program
+  // The part of `memory` that may sample a volume: loads from images, buffers and global memory.
+  int fetches = 0;
   [[nodiscard]] int all() const { return vector + scalar + memory + branch + wait; }
 };
 
