@@ -168,7 +168,7 @@ static IRSB* instrument(VgCallbackClosure* closure, IRSB* in, const VexGuestLayo
   (void)closure, (void)layout, (void)extents, (void)host, (void)guest_word, (void)host_word;
   IRSB* const out = deepCopyIRSBExceptStmts(in);
   UInt owner = TRIPTYCH_DRIVER;
-  Addr page_of_owner = 0; /* the page on which `owner` was found: all its code has one owner */
+  Addr page_of_owner = 0; /* the page of the latest instruction; all code on a page has the same owner */
   UInt pending = 0;
   for (Int i = 0; i < in->stmts_used; ++i) {
     IRStmt* const statement = in->stmts[i];

@@ -30,7 +30,8 @@ const Factor& factor_of(const Suite& suite, const PlacedText& name) {
       name.place, fmt::format("unknown factor '{}'{}", name.text, suggestion(name.text, known)));
 }
 
-// The factors and values in a block of a plan.
+// The factors and values in a block of a plan. The first block consists of the plan's own entries.
+// Each mapping under `also` adds a block, in which it replaces some of these entries.
 struct BlockText {
   ValuesByFactor values;
   std::set<std::string> automatic;  // factors with "auto" among their values
@@ -49,7 +50,7 @@ void set_values(const Suite& suite, const std::vector<PlanEntry>& entries, Block
   }
 }
 
-// An override with its values as typed by the user.
+// An override (--set) with its values as typed by the user.
 struct PlacedOverride {
   const Factor* factor;
   std::vector<PlacedText> values;

@@ -24,7 +24,7 @@ struct Plan {
   std::vector<std::string> varied;  // factors with more than one value
   // The checks by which the plan's runs are judged. Only the measurements needed for these checks
   // are made. For example, clocks are read only for the check `timing`, and workers run under the
-  // emulator only for the check `cost`.
+  // emulator that counts instructions (counting/emulator.hpp) only for the check `cost`.
   record::Checks checks = standard_checks();
   // The hash of the plan's YAML, which distinguishes plans with the same name. Empty if the plan
   // has no YAML.

@@ -23,7 +23,7 @@ using ValuesByFactor = std::map<std::string, std::vector<std::string>>;
 [[nodiscard]] std::vector<const Factor*> slowest_first(const Suite& suite);
 
 // The combinations of one or more blocks of values, without duplicates, one data set after the
-// other.
+// other. The blocks are the plan's own values and the mappings under `also` (plan_yaml.hpp).
 class Combinations {
  public:
   using Use = std::function<void(const Configuration&)>;
