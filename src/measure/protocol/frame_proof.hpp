@@ -33,9 +33,9 @@ class FrameProof {
   // check. In the message, `what` describes the frame, such as "timed frame 3 of 8".
   const core::Image& check(std::string_view what);
   // Checks a frame whose image may differ from the first image. This is the case for a frame of the
-  // counting build, and for a frame after a camera jump, which also draws cells that were not
-  // visible in the previous frame. Throws NotDrawn if no pixel was drawn, or fewer pixels than in
-  // the first frame.
+  // counting build, and for a frame after a camera jump, which also draws cells (groups of
+  // particles that are culled together) that were not visible in the previous frame. Throws
+  // NotDrawn if no pixel was drawn, or fewer pixels than in the first frame.
   void check_drawn(std::string_view what);
 
   // Makes the image of the next check() the image with which later frames are compared, because a

@@ -79,7 +79,8 @@ bool has_levels(const std::string& configuration, const std::string& levels) {
 }
 
 [[noreturn]] void crash() {
-  // The default action, because a sanitizer's handler would exit with a code instead.
+  // Restores the default action, because a sanitizer's handler would exit with a code instead of
+  // ending the process with a signal.
   std::signal(SIGSEGV, SIG_DFL);
   std::raise(SIGSEGV);
   std::abort();

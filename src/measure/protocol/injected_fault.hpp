@@ -12,8 +12,9 @@
 
 namespace triptych::measure {
 
-// A fault that is injected into the work: the name of a technique::Fault, "slowdown:PERCENT" (real
-// extra work), "crash", "hang", "device_lost" or "lost_counter".
+// A fault that is injected into the work: the name of a technique::Fault or a
+// technique::ParticleFault, "slowdown:PERCENT" (real extra work), "crash", "hang", "device_lost" or
+// "lost_counter".
 struct InjectedFault {
   std::string fault;
   // Limits the fault to some configurations. Either a list of levels, such as

@@ -122,8 +122,8 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
     work_ns += drawing.ns();
     return frame;
   };
-  // After a camera jump, cells that were not visible in the previous frame are drawn in another
-  // order, so the image may differ.
+  // After a camera jump, cells (groups of particles that are culled together) that were not visible
+  // in the previous frame are drawn in another order, so the image may differ.
   const auto check = [&](std::string_view what) {
     if (protocol.camera_jumps) {
       proof.check_drawn(what);

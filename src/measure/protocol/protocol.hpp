@@ -53,7 +53,9 @@ inline constexpr Protocol brief_protocol{
 
 struct Measurement {
   record::Record record;  // everything that does not depend on the plan: times, counts, hashes
-  core::Image image;      // the image of the last timed frame
+  // The image of the last timed frame. If no times are measured, the image of the first frame, or
+  // of the frame whose instructions were counted.
+  core::Image image;
 };
 
 // Measures one prepared technique by the protocol. Google Benchmark runs the timed loop.
@@ -72,8 +74,8 @@ struct Measurement {
 // Compares the device time of a calibration work with its wall time, frame by frame. The clock is
 // trusted if the ratio of every frame is within ClockLimits (measure/protocol/clock.hpp). If there
 // are five or more frames, the ratio of one frame may be too low, because the scheduler may have
-// delayed it. Device time may leave out launching and waking up. A clock is not trusted if it reads
-// 0, less than most of the wall time, or more than the wall time.
+// delayed it. The limits allow the device time to leave out the launch and the wake-up of the
+// waiting thread, but not to be longer than the wall time.
 [[nodiscard]] record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind);
 
 // Returns the hash of an image's size and exact bits, which is the key for Store::image().

@@ -17,7 +17,7 @@ namespace triptych::measure {
 
 // A calibration scene, and the counts that a driver reports if it counts exactly.
 struct CalibrationScene {
-  std::string name;  // for display, such as "one quad over 66×50 pixels"
+  std::string name;  // for display, such as "100 small sprites of quad_screen"
   Work work;
   record::Counts expected;
   // Whether Triptych's counter `fragments` provides the expected number of fragments.

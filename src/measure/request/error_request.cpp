@@ -152,9 +152,9 @@ class Search {
       candidate["step"] = text_of_step(step);
       return error(limit_of_few_pixels_, suite_.truth(candidate, {}).truth);
     });
-    // An error computed from a small image is only an estimate. However, if it exceeds the
-    // requested error by this factor, the error of the complete image also exceeds the requested
-    // error.
+    // An error computed from a small image is only an estimate. However, if it exceeds the limit
+    // step_error_ by more than this factor, the error of the complete image also exceeds that
+    // limit.
     constexpr double far = 4;
     if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};
     candidate["viewport"] = viewport;

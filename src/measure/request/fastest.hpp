@@ -15,7 +15,8 @@ namespace triptych::measure {
 
 // The measurement that is compared. For plans that count instructions, it is the number of
 // instructions in device code and driver. Otherwise it is the time on the device clock if that
-// clock is trusted for all contestants, or else the time on the wall clock.
+// clock is trusted for all contestants (the records that are compared), or else the time on the
+// wall clock.
 enum class Ruler : std::uint8_t { device_clock, wall_clock, instructions };
 
 struct Contestant {
