@@ -1,10 +1,11 @@
 #pragma once
 // Measures two workers that take turns on one machine (interleaved A/B), so that a disturbance
-// slows down both workers. A block consists of four batches. Their order is chosen at random,
-// either ABBA or BAAB, so that a drift that is linear over the four batches cancels out of the
-// difference. If batches are short, a block repeats the four batches several times and uses the
-// minimum time of each batch. Disturbances on the CPU last for tens of milliseconds and can only
-// make a batch slower, so the minimum removes them.
+// slows down both workers. Each side, A or B, has one worker. A batch is a number of frames that
+// one worker draws in a row. A block consists of four batches, two of each side. Their order is
+// chosen at random, either ABBA or BAAB, so that a drift that is linear over the four batches
+// cancels out of the difference. If batches are short, a block repeats the four batches several
+// times and uses the minimum time of each batch. Disturbances on the CPU last for tens of
+// milliseconds and can only make a batch slower, so the minimum removes them.
 
 #include <array>
 #include <chrono>

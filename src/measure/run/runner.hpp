@@ -107,7 +107,8 @@ struct PlannedRun {
 [[nodiscard]] std::vector<InjectedFault> faults_that_hit_nothing(
     std::span<const PlannedRun> runs, const std::vector<std::string>& devices);
 
-// A plan that is measured on two sides. Each side is written to its own run.
+// A plan that is measured on two sides: on two devices, or on one device with different driver
+// settings or builds. Each side is written to its own run.
 struct SidesRun {
   const Plan& plan;
   const Suite& suite;

@@ -13,7 +13,8 @@ namespace triptych::measure {
 // are written to the store. All arguments must outlive this object.
 class SingleFrames {
  public:
-  // Throws InputError in the same cases as run_plans().
+  // Throws InputError for an unknown fault, and for environment variables of this process that must
+  // not be set while measuring.
   SingleFrames(const Suite& suite, std::string device, record::Store& store,
                const RunOptions& options, InterruptGuard& interrupts);
 
