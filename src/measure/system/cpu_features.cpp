@@ -9,8 +9,8 @@
 namespace triptych::measure {
 namespace {
 
-// Returns whether a CPU flag affects the code that LLVM generates. Only the flags for the vector
-// units of x86 and ARM do.
+// Returns whether a CPU flag affects the code that LLVM generates. Only the flags for vector and
+// bit-manipulation instructions of x86 and ARM do.
 bool changes_code(std::string_view flag) {
   static constexpr std::string_view prefixes[] = {"avx", "sse4", "fma", "f16c",
                                                   "bmi", "amx",  "sve", "asimd"};

@@ -95,7 +95,7 @@ std::vector<std::string> EnergyMeters::names() const {
   return names;
 }
 
-// Adds the meters of the packages and of their memory. The memory is the only part of a package
+// Adds the meters of the CPU packages and of their memory. The memory is the only part of a package
 // that the package's own meter does not include. The zone `psys` is not used, because it measures
 // the whole machine including the packages, which would be counted twice.
 void EnergyMeters::find_processors(const fs::path& system) {

@@ -1,8 +1,8 @@
 #pragma once
 // Distinguishes reference images that this user rendered from reference images that came with a
-// store. The latter cannot be trusted, because all other seals in a store are hashes that anybody
-// can compute. Whoever provides a store could therefore widen the error bounds in it until every
-// image is within its bound.
+// store. The latter cannot be trusted, because all other seals in a store (record/store_seal.hpp)
+// are hashes without a secret key, which anybody can compute. Whoever provides a store could
+// therefore widen the error bounds in it until every image is within its bound.
 
 #include <optional>
 #include <string>

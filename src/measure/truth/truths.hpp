@@ -1,6 +1,7 @@
 #pragma once
-// Provides the reference image, the error bound, the limit and the expectations for a record. They
-// are computed by the record's suite.
+// Provides the data with which a record's image is compared: the reference image, its error bound,
+// the limit (the image to which the scene converges as its sampling is refined), and the
+// expectations (conditions that only stress cases have). The record's suite computes all of them.
 
 #include <functional>
 #include <map>

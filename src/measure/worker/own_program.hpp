@@ -1,7 +1,8 @@
 #pragma once
 // This program starts itself again in separate processes that use devices. A process that is
 // started as "worker --device ID" calls serve_worker(). A process that is started as "list-api API"
-// calls answer_listing() (measure/worker/listing.hpp).
+// calls answer_listing() (measure/worker/listing.hpp), and one that is started as "probe-features
+// ID" calls answer_features() (measure/worker/feature_run.hpp).
 
 #include <string>
 #include <vector>

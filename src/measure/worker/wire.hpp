@@ -77,7 +77,8 @@ struct Refused {
   record::Reason reason;
   // Returns whether the device does not support the request.
   [[nodiscard]] bool unsupported() const { return reason.cause == record::Cause::not_supported; }
-  // Returns whether this is really a refusal. It is not if the worker sent its Hello instead.
+  // Returns whether this is really a refusal. An object without a cause means that the worker sent
+  // its Hello.
   [[nodiscard]] bool is_one() const { return reason.cause != record::Cause::none; }
 };
 

@@ -14,8 +14,8 @@ namespace triptych::measure {
 [[nodiscard]] int serve_worker(const Backend& backend, std::string_view device_id,
                                const FindSuite& find_suite, int request_fd, int answer_fd);
 
-// Stores in the record those properties of the data and of the device's path that are needed to
-// judge the image.
+// Stores in the record the hash of the data, and those properties of the device that determine the
+// error bound of the image (Record::precision).
 void describe_work(const Work& work, const Device& device, record::Record& record);
 
 }  // namespace triptych::measure

@@ -1,6 +1,6 @@
 #pragma once
-// Determines how the worker of a device is started: its command (with or without the emulator), its
-// environment and its cache folder.
+// Determines how the worker of a device is started: its command (with or without the emulator that
+// counts instructions, counting/emulator.hpp), its environment and its cache folder.
 
 #include <chrono>
 #include <string>
@@ -27,9 +27,9 @@ struct SideOptions {
 inline constexpr std::chrono::seconds counted_limit{600};
 
 // The default time limit for a configuration in a compile-only plan. It is longer than that of
-// other plans, which is one minute. The most expensive configuration (bvh with rusticl of Mesa
-// 25.0.7) needs 8 s of CPU time, but took more than a minute while eight busy processes shared two
-// CPU cores.
+// other plans, which is one minute. The most expensive configuration (the technique bvh, compiled
+// by rusticl of Mesa 25.0.7) needs 8 s of CPU time, but took more than a minute while eight busy
+// processes shared two CPU cores.
 inline constexpr std::chrono::seconds compiled_limit{300};
 
 // Returns the name of the worker's cache folder. A worker has a separate folder if it runs under
