@@ -20,8 +20,8 @@ std::vector<std::string> all_in(const std::vector<Beginning>& parts,
   return {all.begin(), all.end()};
 }
 
-// Replaces invalid UTF-8, as the store does, so that a seal computed before storing matches the
-// seal of the data that are read back.
+// Replaces invalid UTF-8, as the store does. Otherwise a seal (a hash of stored data) that is
+// computed before storing would differ from the seal of the data that are read back.
 std::vector<std::string> mended(std::vector<std::string> texts) {
   for (std::string& each : texts) each = core::mended_utf8(each);
   return texts;

@@ -25,7 +25,7 @@ struct Unusable {
   std::optional<Reason> ended = {};
   bool operator==(const Unusable&) const = default;
 
-  // Returns the API whose devices could not be enumerated.
+  // If `ended` is set, returns the API whose devices could not be enumerated.
   [[nodiscard]] std::string api() const { return what.substr(0, what.find(' ')); }
 };
 

@@ -1,7 +1,8 @@
 #pragma once
 // Packs the entries of Google Benchmark's output for storage in a record. A configuration has about
-// eighteen entries: one for each frame, the aggregates and the loop. All entries of a configuration
-// repeat its name and counters, so only the differences between the entries are stored.
+// eighteen entries: one for each timed frame, one for each aggregate (such as the mean), and one
+// for the loop that is timed as a whole. All entries of a configuration repeat its name and
+// counters, so only the differences between the entries are stored.
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
-// The checks of a run. A plan lists the checks that apply to it, and the judge has a function for
-// each check.
+// The checks of a run. A plan (a set of configurations to measure) lists the checks that apply to
+// it, and the judge (src/judge) has a function for each check.
 
 #include <cstdint>
 #include <set>

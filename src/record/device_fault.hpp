@@ -16,7 +16,7 @@ enum class DeviceFaultKind : std::uint8_t {
   statistics_all_zero,   // all pipeline statistics are 0, although the frame drew something
   statistics_crash,      // the driver crashes when it reads pipeline statistics
   statistics_not_ready,  // pipeline statistics never become available
-  teardown_crash,        // the worker crashes while it closes the device
+  teardown_crash,        // the worker process crashes while it closes the device
   teardown_hang,         // the worker hangs while it closes the device
   memory_grows           // the worker's memory grows from configuration to configuration
 };

@@ -6,8 +6,9 @@
 namespace triptych::record {
 
 // Returns whether the record has an image. There is no image if the technique is speed_of_light,
-// which only computes sums, or if the device is a compile-only device, which draws nothing. A test
-// checks that this function and the catalogue agree on which techniques draw an image.
+// which only fetches the data and sums them, or if the device is a compile-only device, which draws
+// nothing. A test checks that this function agrees with the list of techniques
+// (technique/catalogue.hpp) on which techniques draw an image.
 [[nodiscard]] inline bool has_picture(const Record& record) {
   return record.technique != "speed_of_light" && record.code.empty();
 }

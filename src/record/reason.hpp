@@ -26,6 +26,7 @@ enum class Outcome : std::uint8_t {
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 [[nodiscard]] Outcome outcome(std::string_view name);  // throws InputError
 
+// Words in quotes are keys of Reason::numbers; words in backticks are other members of Reason.
 enum class Cause : std::uint8_t {
   none,              // the configuration was measured
   same_frames,       // the frames were copied from an equivalent configuration
@@ -36,7 +37,8 @@ enum class Cause : std::uint8_t {
   api_error,         // `subject` is the call, `code` the code that it returned
   device_lost,       // `subject` and `code` have the same meaning as for api_error
   not_drawn,         // the driver reported success, but drew nothing
-  out_of_memory,     // not enough host memory for the data `subject`; limit: "limit_bytes", if any
+  out_of_memory,     // not enough host memory for the data set `subject`; the memory limit, if
+                     // there is one, is "limit_bytes"
   error,             // any other exception
   signal,            // the worker was killed by the signal "signal"
   exit_code,         // the worker exited early with the code "exit_code"
@@ -90,7 +92,8 @@ class NotMeasured : public core::Error {
   NotMeasured(Outcome outcome, Reason reason);
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
   [[nodiscard]] const Reason& reason() const noexcept { return reason_; }
-  // Returns cannot_judge if the device does not support the request, otherwise usage.
+  // Returns usage if the input is broken or an error occurred. Returns cannot_judge if the
+  // configuration was skipped for any other reason, such as a missing feature or data file.
   [[nodiscard]] core::ExitCode exit_code() const noexcept;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 // Measurements, stored as one Record for each combination of configuration, device and run. The
-// judge and the reports need only records, so they also work on a machine that has none of the
-// devices.
+// judge (src/judge) and the reports need only records, so they also work on a machine that has none
+// of the devices.
 
 #include <cstddef>
 #include <cstdint>
@@ -102,25 +102,27 @@ struct Record {
   bool device_clock_trusted = false;
   int warm_up_frames = 0;
   int frames_per_100ms = 0;  // number of frames in 100 ms, estimated during warm-up
-  double loop_wall_ns = 0;   // total wall-clock time of the loop that follows the timed frames
+  // After the timed frames, a loop draws further frames back to back and is timed as a whole. These
+  // are the total wall-clock time of this loop and its number of frames.
+  double loop_wall_ns = 0;
   int loop_frames = 0;
   double prepare_ns = 0;                // time for loading data, building pipelines and uploading
   double overhead_ns = 0;               // wall-clock time outside device work and warm-up
   std::uint64_t peak_memory_bytes = 0;  // peak memory of the worker process so far
 
-  // The instructions that the worker executed during one frame of the timed build, grouped by the
-  // location of the executed code: "device_code", "driver", "libc", "program". Two more entries are
-  // "allocations", the number of memory allocations, and "misses", the cache misses of device code
-  // in a simulated cache. Empty if instructions were not counted. `prepare_cost` contains the
-  // corresponding counts for the preparation.
+  // The instructions that the worker process executed during one frame with the same device code
+  // that is timed, grouped by the location of the executed code: "device_code", "driver", "libc",
+  // "program". Two more entries are "allocations", the number of memory allocations, and "misses",
+  // the cache misses of device code in a simulated cache. Empty if instructions were not counted.
+  // `prepare_cost` contains the corresponding counts for the preparation.
   Counts cost;
   Counts prepare_cost;
   Code code;  // for plans with the check `code`; empty if the compiler reported nothing
   std::string
       counted_by;   // the emulator that counted `cost`, its version, and the CPU that it simulates
   Counts memory;    // bytes allocated on the device for this configuration, by kind
-  Counts energy;    // microjoules per frame, by meter; empty if there are no meters
-  Counts counters;  // Triptych's own counters; empty if no counting frame was drawn
+  Counts energy;    // microjoules per frame, by energy meter; empty if there are no meters
+  Counts counters;  // Triptych's own counters; empty if no frame was drawn to count them
   Counts statistics;        // the driver's pipeline statistics
   std::string image;        // content hash, the key for Store::image(); empty without an image
   std::string data_hash;    // content hash of the scene's data
@@ -164,7 +166,8 @@ inline void require_measured(const Record& record) {
   if (record.outcome != Outcome::measured) throw NotMeasured(record.outcome, record.reason);
 }
 
-// One execution of the command `triptych run` on one machine.
+// The records of one plan. A run is usually written by one command on one machine. Later commands
+// add records to it with --resume, and `triptych merge` combines several runs into one.
 struct Run {
   std::string id;  // unique; consists of the time and random digits
   std::string plan;
@@ -178,7 +181,7 @@ struct Run {
   // One entry for each command that contributed measurements to this run. Empty in a store that was
   // not written by a command.
   std::vector<Beginning> begun = {};
-  std::string planned_hash = {};  // hash of the keys of these configurations (Store::planned())
+  std::string planned_hash = {};  // hash of the keys that Store::planned() returns
 };
 
 // Returns the argument PLAN with which `triptych run` and `triptych compare` select the plan of a

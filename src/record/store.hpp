@@ -30,7 +30,9 @@ struct TruthImage {
                         // another version is rendered again
   std::vector<std::byte> image;  // EXR
   std::vector<std::byte> bound;  // EXR with equal values in all channels
-  std::string own_seal = {};     // see measure/truth/own_seal.hpp; empty if the origin is unknown
+  // A keyed hash that proves that this user rendered the image (measure/truth/own_seal.hpp). Empty
+  // if no key was available.
+  std::string own_seal = {};
 };
 
 class Store {

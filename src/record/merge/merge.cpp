@@ -140,8 +140,8 @@ class Writing {
     }
   }
 
-  // Copies one row for each key of a table whose rows are large. Only the keys and seals are read
-  // from all stores; the content of a row is read only if the row is copied.
+  // Copies one row for each key of a table whose rows are large. Only the keys and seals (hashes)
+  // are read from all stores; the content of a row is read only if the row is copied.
   void copy_named(const std::string& table, const std::vector<std::string>& key,
                   const std::vector<std::string>& content) {
     const int keys = static_cast<int>(key.size());

@@ -1,6 +1,6 @@
 #pragma once
-// Merges several stores into one. The shards of a plan, which may have been measured on several
-// hosts and devices, become one run.
+// Merges several stores into one. The shards (parts) of a plan, which may have been measured on
+// several hosts and devices, become one run.
 
 #include <cstdint>
 #include <filesystem>
@@ -42,9 +42,10 @@ struct MergeResult {
 // start time of its parts, and the system facts of all parts. If there are several records of the
 // same configuration and device, only one of them is copied. Records without an injected fault are
 // preferred, then measured records, then skipped records, and then the record with the smallest
-// seal. If a device's clocks were calibrated several times, the calibration with the smallest seal
-// is kept. The new store is byte-identical regardless of the order of `stores`, even if a store is
-// listed twice. Memory use does not grow with the number of records or stores.
+// seal (a hash of its content). If a device's clocks were calibrated several times, the calibration
+// with the smallest seal is kept. The new store is byte-identical regardless of the order of
+// `stores`, even if a store is listed twice. Memory use does not grow with the number of records or
+// stores.
 //
 // `out` appears only when everything has been written. An existing file is not overwritten. Throws
 // InputError if two stores have different versions of a plan, different checks for the same plan,

@@ -81,7 +81,8 @@ void add(const Run& run, Run& sum) {
 using Devices = std::map<std::string, Found<Store::DeviceEntry>>;
 
 // Adds a device. If several parts contain the same device, their entries differ only in the
-// calibration of its clocks, so the entry with the smallest seal is kept.
+// calibration of its clocks. In this case, the entry with the smallest seal (hash) is kept, so that
+// the result does not depend on the order of the parts.
 void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   const std::string id = entry.device.id;
   const auto found = devices.find(id);

@@ -58,8 +58,8 @@ bool has_fault(const Query& record) {
 // Returns whether record `a` is preferred to record `b`. A record without an injected fault is
 // preferred to a record with an injected fault, even if only the latter was measured. Otherwise, a
 // measured record is preferred, because users repeat jobs in order to measure what failed before.
-// The last rule, which prefers the smaller seal, is arbitrary, but it does not depend on the order
-// of the stores.
+// The last rule, which prefers the smaller seal (hash), is arbitrary, but it does not depend on the
+// order of the stores.
 bool is_before(const Query& a, const Query& b) {
   if (has_fault(a) != has_fault(b)) return has_fault(b);
   const int rank_a = rank_of(a.text(column::outcome));
@@ -123,7 +123,8 @@ RecordCopy::RecordCopy(const std::vector<Source>& sources, const SQLite::Databas
   prepare_parts();
 }
 
-// Returns every table whose rows refer to a record. Its rows are sorted by its primary key.
+// Returns every table whose rows refer to a record, with a query that selects the rows of one
+// record in the order of the table's primary key.
 std::vector<RecordCopy::Part> RecordCopy::parts_of(const SQLite::Database& database) {
   std::vector<Part> parts;
   for (std::string& table :
