@@ -28,8 +28,9 @@ class WorkerSlot {
   // Starts a worker if there is none. Returns true if there is a worker now. A new worker receives
   // the message that `start` returns. Its greeting is passed to `greeted`, which may throw an
   // exception to reject the worker. No further attempt is made if two attempts in a row fail, or if
-  // the device does not support the request. In these cases, this call and all later calls return
-  // false, and why_closed() returns the reason.
+  // the device does not support the request. However, if the second attempt ended with a crash or a
+  // timeout, one more attempt is made, in which pipeline statistics are not read. After the last
+  // attempt, this call and all later calls return false, and why_closed() returns the reason.
   bool open(const std::function<Start()>& start, const std::function<void(const Hello&)>& greeted);
   [[nodiscard]] const record::Reason& why_closed() const noexcept { return why_closed_.reason; }
   // Returns whether the slot is closed because the device does not support the request.
