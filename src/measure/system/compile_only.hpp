@@ -1,8 +1,9 @@
 #pragma once
 // Compile-only devices. Such a device is a driver's compiler for a GPU that this machine does not
-// have. Its id contains the GPU family, for example `vulkan:radv-navi31`. RADV needs no GPU at all.
-// All other drivers use Mesa's stub of the kernel interface (package mesa-drm-shim), which pretends
-// to be a GPU but executes nothing.
+// have. Its id contains the GPU family, for example `vulkan:radv-navi31`. Older releases of RADV
+// compile without any GPU (RADV_FORCE_FAMILY). Newer releases, and all other drivers, use Mesa's
+// stub of the kernel interface (package mesa-drm-shim), which pretends to be a GPU but executes
+// nothing.
 
 #include <optional>
 #include <span>
