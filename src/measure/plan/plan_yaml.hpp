@@ -1,6 +1,6 @@
 #pragma once
 // Parses a plan's YAML into strings with their places in the file. The strings are not interpreted,
-// because the suite is not known yet. Only plan.cpp uses this file.
+// because the suite is not known yet. To load a plan, use plan.hpp.
 
 #include <string>
 #include <string_view>

@@ -25,8 +25,9 @@ struct Protocol {
   int most_loop_frames = 1000;
   bool statistics = true;
   bool counters = true;
-  // If false, one frame is drawn for the image, one for the statistics and one for Triptych's
-  // counters. There is no warm-up, no timing and no benchmark.
+  // If false, one frame is drawn for the image, one for the statistics, one for Triptych's
+  // counters, and one to check that repeated commands are executed again. There is no warm-up, no
+  // timing and no benchmark.
   bool timed = true;
   // If true, the instructions of the third frame are counted (counting/emulator.hpp), and no times
   // are measured. Triptych's counters and the image are recorded only if they are requested.

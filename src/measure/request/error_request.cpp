@@ -174,8 +174,8 @@ class Search {
       candidate["skip"] = skip;
       plan.configurations.push_back(candidate);
     }
-    // The remaining candidates merge samples, which only the quadrature `midpoint` allows. All
-    // other quadratures have only one skipping mode.
+    // The last candidate merges samples, which is possible only with the quadrature `midpoint` and
+    // with skip=bricks.
     if (candidate.at("quadrature") != "midpoint") return;
     const double merged = rounded_down(accuracy::merging_share * request_.error);
     candidate["skip"] = "bricks";

@@ -1,5 +1,6 @@
 #pragma once
-// Measures one plan on all devices of a run. Several plans may be measured at the same time.
+// Measures one plan, or a part of a plan, on one or more devices. If nothing is timed, several
+// objects of this class may run at the same time.
 
 #include <functional>
 #include <map>

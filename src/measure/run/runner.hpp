@@ -1,6 +1,6 @@
 #pragma once
-// Runs a plan with one supervised worker process for each device. Records are stored as soon as
-// they are complete.
+// Runs plans in supervised worker processes, each of which uses one device. Records are stored as
+// soon as they are complete.
 
 #include <array>
 #include <chrono>

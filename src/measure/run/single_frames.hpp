@@ -9,8 +9,8 @@
 namespace triptych::measure {
 
 // A device with its worker, which is replaced if it dies. For each configuration, the worker draws
-// one frame for the image and one frame for the counters. No times are measured. Records and images
-// are written to the store. All arguments must outlive this object.
+// the frames of an untimed measurement (Protocol::timed is false), without the frame for pipeline
+// statistics. Records and images are written to the store. All arguments must outlive this object.
 class SingleFrames {
  public:
   // Throws InputError for an unknown fault, and for environment variables of this process that must
