@@ -1,7 +1,7 @@
 #pragma once
-// Typed errors. They are thrown where the cause is known. Each is caught in one place, which turns
-// it into a record (in the worker, for one configuration) or into an exit code (in app, for one
-// command).
+// Typed errors, which are thrown where the cause is known. An error that no other code handles ends
+// in one of two places. The worker (the process that draws on a device) stores it as the result of
+// the configuration. The function main() in src/app turns it into the exit code of the command.
 
 #include <cstdint>
 #include <optional>

@@ -18,8 +18,8 @@ namespace triptych::core {
 // The size limit for files that people write by hand, such as plans, tables and descriptions.
 // Larger files are rejected before they are read.
 inline constexpr std::size_t most_text_bytes = std::size_t{1} << 20;
-// The size limit for the JSON files that `triptych accept` writes. They have one value per line, so
-// that people can merge two versions by hand.
+// The size limit for the JSON files that `triptych accept` writes. They may have many lines,
+// because they have one value per line, so that people can merge two versions by hand.
 inline constexpr std::size_t most_json_bytes = std::size_t{64} << 20;
 
 // Like read_file(), but throws InputError if the file is larger than `most` bytes.

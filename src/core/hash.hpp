@@ -20,12 +20,12 @@ namespace triptych::core {
 
 // Computes the content hash of an object that consists of several parts. The parts are hashed in
 // the order in which they are added, in this form:
-//   a number    eight little-endian bytes: an integer in two's complement, or a floating-point
-//               number as an IEEE double. Therefore 0 and −0 have different hashes, whereas the
-//               same value has the same hash as an int and as a long, or as a float and as a
-//               double.
-//   text        its length as a number, then its bytes an array    the content hash of the bytes of
-//   all its elements, added as text
+// - A number is hashed as eight little-endian bytes: an integer in two's complement, or a
+//   floating-point number as an IEEE double. Therefore 0.0 and −0.0 have different hashes, whereas
+//   the same value has the same hash as an int and as a long, or as a float and as a double.
+// - Text is hashed as its length (a number), followed by its bytes.
+// - An array is replaced by the content hash of the bytes of all its elements, which is then hashed
+//   as text.
 // The caller must add the parts of all objects of one kind in the same sequence, and must add the
 // length of a list before its elements.
 class HashBuilder {

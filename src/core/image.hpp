@@ -11,8 +11,8 @@ namespace triptych::core {
 // An image with linear, premultiplied float RGBA in row-major order, top row first. Pixel (x, y)
 // begins at rgba[4·(y·width + x)]. Images of particles also have two values per pixel that belong
 // to the visible particle: its depth (the distance along the view axis in world units) and its id
-// (its index in the particle file). Where no particle is visible, these values are +inf and
-// no_particle. In other images, `depth` and `ids` are empty.
+// (see ParticleSet::ids in scene/particles.hpp). Where no particle is visible, these values are
+// +inf and no_particle. In other images, `depth` and `ids` are empty.
 struct Image {
   int width = 0;
   int height = 0;

@@ -16,7 +16,7 @@ class PrivateFolder {
  public:
   // Creates `root` and root/names[0]/names[1]/… with mode 0700 if they are missing. If other users
   // can read a folder below `root`, the constructor removes their permission. It throws an IoError
-  // that states the folder and the reason in two cases:
+  // that states the folder and the reason if a system call fails, and in two other cases:
   // - A folder below `root` is a symbolic link or not a folder, belongs to another user, or can be
   //   written by other users, so that its content cannot be trusted.
   // - Other users can rename the content of `root`, because they can write to it and it has no
