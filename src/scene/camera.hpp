@@ -35,9 +35,9 @@ struct Box {
   glm::dvec3 hi{1, 1, 1};
 };
 
-// Returns the camera that a level of the factor `camera` describes: "PATH:i/n" with 0 ≤ i < n,
-// "random:SEED", or "view:…" (free_view.hpp). Let λ = i/n, c the box's centre, s its size, L its
-// largest extent, and D = (L/2)/tan(fov/2). The paths are:
+// Returns the camera that a level (value) of the factor (setting) `camera` describes: "PATH:i/n"
+// with 0 ≤ i < n, "random:SEED", or "view:…" (free_view.hpp). Let λ = i/n, c the box's centre, s
+// its size, L its largest extent, and D = (L/2)/tan(fov/2). The paths are:
 // clang-format off
 //   orbit_x|y|z      a circle of radius L/2 + D about that axis, at the angle 2πλ, looking at c
 //   orbit_-x|-y|-z   the same circle in the opposite direction. The orbits about x and y start on the +z side, those about z on
@@ -45,9 +45,9 @@ struct Box {
 //   diagonal_xyz     along that diagonal of the box (a minus sign reverses the axis that follows it). The camera starts half
 //   diagonal_-xyz    the diagonal's length plus D in front of c, moves straight towards c, and reaches c at λ = 1.
 //   diagonal_x-yz, diagonal_xy-z
-//   path_x|y|z       along the axis towards its lower end, looking ahead. The camera starts at half the extent plus D
-//                    from c and reaches c at λ = 1.
-//   path_sin_x|y|z   the same path, displaced along z, x or x, respectively, by ¼·sin(2πλ) of the box's extent along that axis
+//   path_x|y|z       along the axis towards its lower end, looking ahead. The camera starts at a distance from c
+//                    of half the box's extent along that axis plus D, and reaches c at λ = 1.
+//   path_sin_x|y|z   the same path, displaced by ¼·sin(2πλ) of the box's extent: path_sin_x along z, the other two along x
 //   random:SEED      a random direction, roll, distance (0.3…1.2 times L/2 + D) and target (in the middle half of the box).
 //                    All are drawn again until at least the fraction `random_view_coverage` of the centres of the box's 8×8×8
 //                    cells lies inside a frustum of aspect ratio 1.

@@ -10,7 +10,7 @@ namespace triptych::scene {
 [[nodiscard]] double sine_turns(double turns);
 [[nodiscard]] double cosine_turns(double turns);
 
-// Returns e^x for x ≤ 700. Returns 0 for x < −700, where results would become denormal.
+// Returns e^x for x ≤ 700. Returns 0 for x < −700, so that no result is denormal.
 [[nodiscard]] double exponential(double x);
 
 // Returns the natural logarithm of a positive, finite number.

@@ -7,9 +7,9 @@
 
 namespace triptych::scene {
 
-// A camera that looks at the centre of the box. As a level of the factor `camera` it is written
-// "view:AZIMUTH/ELEVATION/DISTANCE", such as view:45/20/0.8. `view:45/0/1` is the same camera as
-// `orbit_y:1/8`.
+// A camera that looks at the centre of the box. As a level (value) of the factor (setting)
+// `camera`, it is written "view:AZIMUTH/ELEVATION/DISTANCE", such as view:45/20/0.8. `view:45/0/1`
+// is the same camera as `orbit_y:1/8`.
 struct FreeView {
   double azimuth_deg = 0;    // angle about the y axis, from +z towards +x
   double elevation_deg = 0;  // angle above the horizontal plane, −90 to 90

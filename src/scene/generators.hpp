@@ -12,10 +12,11 @@
 // clang-format off
 //   uniform_box     f32  0..1       ½ everywhere
 //   gradient_box    u16  0..hi      i + j + k; hi = nx + ny + nz − 3, reached in the last corner
-//   frequency_box   f32  0..1       ½ + ½·s(u)·s(v)·s(w), s(t) = sin(2π·12·t)
-//   mandelbulb      u8   0..255     max(0, 1 − d/0.2)², d = ½·r·ln r/r' the estimated distance to the
-//                                   set of z ← z⁸ + c (White and Nylander's power) over [−1.2, 1.2]³;
-//                                   1 inside
+//   frequency_box   f32  0..1       ½ + ½·s(u)·s(v)·s(w) with s(t) = sin(2π·12·t)
+//   mandelbulb      u8   0..255     max(0, 1 − d/0.2)² at c = 1.2·(x, y, z). d estimates the distance from c
+//                                   to the set of points for which z ← z⁸ + c stays bounded (with the
+//                                   z⁸ of White and Nylander). d = ½·|z|·ln|z|/|dz/dc| after the last
+//                                   iteration, and d = 0 inside the set
 //   marschner_lobb  f32  0..1       (1 − sin(πz/2) + ¼(1 + cos(12π·cos(πρ/2))))/2.5, ρ = √(x² + y²)
 //                                   (Marschner and Lobb 1994 with f = 6, α = ¼)
 //   nested_shells   u16  0..65535   Σ a·b((√(x² + y² + z²) − r)/0.08), (r, a) = (0.3, 1), (0.6, 0.7),

@@ -24,8 +24,8 @@ std::array<bool, 256> kinks(const TransferFunction& function) {
       return std::abs(before - 2 * middle + after);
     };
     const double alpha = static_cast<double>(here[3]);
-    // The change of slope in the extinction −ln(1 − alpha). The extinction's slope is 1/(1 − alpha)
-    // times the slope of alpha.
+    // Both sides of this comparison are multiplied by 1 − alpha, because the slope of the
+    // extinction −ln(1 − alpha) is the slope of alpha divided by 1 − alpha.
     const bool extinction = bend(3) > sharp * (1 - alpha);
     const bool colour = std::max({bend(0), bend(1), bend(2)}) * alpha > sharp;
     found[k] = extinction || colour;

@@ -5,12 +5,14 @@
 
 namespace triptych::scene {
 
-// Returns, for each entry, whether the function has a kink there, so that Quadrature::cells must
-// split the ray. An entry is a kink if the slope of the extinction, or of the colour times the
-// opacity, changes by more than 2⁻¹⁵ per entry. The function is constant before the first entry and
-// after the last entry. If the ray is not split where the slope changes by q, the two-point Gauss
-// rule has an error of at most 0.0224·q·Δ per voxel, where Δ is the number of entries that the
-// piece of the ray spans. A smooth function does not cause this error, even where its slope
+// Returns, for each entry, whether the function has a kink there. Quadrature::cells, a rule that
+// integrates along the ray (volume_scene.hpp), must split the ray at kinks. An entry is a kink if
+// the slope of the extinction changes there by more than 2⁻¹⁵, or if the change in the slope of a
+// colour channel, multiplied by the opacity, exceeds 2⁻¹⁵. Slopes are differences between adjacent
+// entries. The function is constant before the first entry and after the last entry. If a piece of
+// the ray is not split where the slope changes by q, the two-point Gauss rule integrates it with an
+// error of at most 0.0224·q·Δ per voxel of its length, where Δ is the number of entries that the
+// piece spans. A smooth function does not cause this error, even where its slope
 // changes, because the Gauss rule follows the curve.
 [[nodiscard]] std::array<bool, 256> kinks(const TransferFunction& function);
 

@@ -283,8 +283,9 @@ Atoms read_pairs(Tokens& tokens, std::uint64_t frame, const LineReader& reader) 
 }
 
 // Detects truncated files. If a program ends the heading and every category with '#', as the PDB
-// does, the last category must end with '#', too. A few '#' are not sufficient evidence, because
-// some programs write them only between categories.
+// does, the last category must end with '#', too. If there are fewer than `enough` '#' before the
+// atoms, the reader does not reject the file but adds a note, because some programs write '#' only
+// between categories.
 class ClosingMarks {
  public:
   void heading(const Tokens& tokens) {

@@ -5,16 +5,16 @@
 //
 // clang-format off
 //   uniform    centres uniformly distributed in [0, 10]³; equal radii such that the spheres fill a tenth
-//              of the box: count·(4/3)πr³ = 0.1·10³ (the artificial data sets of the paper; radius_scale
-//              produces other filling fractions)
+//              of the box: count·(4/3)πr³ = 0.1·10³ (like the artificial data sets in the paper of Bruder et
+//              al., see docs/paper.md; radius_scale produces other filling fractions)
 //   droplets   three dense droplets of different sizes in a mostly empty box 20×10×10, with thin vapour
 //              between them
 //   layer      a liquid layer across the middle of a long box 5×5×40, with vapour on both sides
 //   plume      an ablation plume: a slab of lattice sites with a crater, and above it an expanding
 //              cone of clusters and single particles whose density decreases with height
 //   coincident every position occurs eight times, with the same radius and different colours, so that depths tie
-//   wall       a lattice without gaps in the front face of the cube; all of it is visible from +z
-//   hidden     a wall that consists of a tenth of COUNT, with all other particles hidden behind it; its bounding
+//   wall       a lattice without gaps in the front face of the cube [0, 10]³; all of it is visible from +z
+//   hidden     a wall that consists of a tenth of the particles, with all other particles hidden behind it; its bounding
 //              box is the same as that of `wall:COUNT/10`
 // clang-format on
 // Radii are equal within a set, except in `plume`, whose clusters have radii up to twice as large,

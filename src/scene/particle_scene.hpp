@@ -9,7 +9,7 @@
 namespace triptych::scene {
 
 // Shading with the light at the eye. With the unit normal n and the ray direction d, an opaque
-// surface has the colour
+// surface of colour c is drawn with the colour
 //   c' = c·(ambient + diffuse·|n·d|).
 // For spheres, |n·d| = √(r² − p²)/r, where p is the distance of the centre from the ray.
 struct SphereShading {
@@ -46,8 +46,9 @@ struct ParticleScene {
   }
 };
 
-// Returns the camera that the level `spec` of the factor `camera` describes for these particles
-// (camera_at() with their bounding_box()), with `near` as required by ParticleScene.
+// Returns the camera that the level (value) `spec` of the factor (setting) `camera` describes for
+// these particles (camera_at() with their bounding_box()), with `near` as required by
+// ParticleScene.
 [[nodiscard]] Camera particle_camera(std::string_view spec, const ParticleSet& set,
                                      double fov_y_deg);
 

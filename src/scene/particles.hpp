@@ -15,7 +15,8 @@
 
 namespace triptych::scene {
 
-// The format in which a set stores the colours of its particles: the levels of the factor `colour`.
+// The format in which a set stores the colours of its particles. The formats are the levels
+// (values) of the factor (setting) `colour`.
 enum class ColourKind : std::uint8_t {
   rgba8,     // four bytes, with red in the lowest byte
   rgba32,    // four floats
@@ -29,8 +30,8 @@ enum class ColourKind : std::uint8_t {
 struct ParticleSet {
   std::string name;  // the `data` factor: a file name or generate:NAME:COUNT
   std::vector<std::array<float, 4>> spheres;  // centre x, y, z and radius in world units
-  // 0-based indices in the file, where dropped particles also count. They are in ascending order
-  // unless the set was permuted.
+  // 0-based indices in the file or, if the file numbers its atoms, 0-based ranks of these numbers.
+  // Dropped particles also count. The ids are in ascending order unless the set was permuted.
   std::vector<std::uint32_t> ids;
   ColourKind colour = ColourKind::rgba8;
   // Only the array that `colour` names is filled. Colours are not premultiplied. Alpha is not used,

@@ -37,9 +37,9 @@ constexpr std::array<ControlPoint, 7> haze{{
     {1.00, {1.00, 0.90, 0.80, 0.060}},
 }};
 
-// Opaque shells at 0.40, at 0.54 and from 0.66 on. Each reaches its opacity within a few voxels.
-// The values between and below the shells are transparent, because the lowest third is air and
-// noise in most scans.
+// The opacity per voxel has peaks at 0.40 and at 0.54, and is at least 0.80 from 0.68 on, so that a
+// shell becomes opaque within a few voxels. The values between the shells are transparent. So are
+// the values below them, because the lowest third is air and noise in most scans.
 constexpr std::array<ControlPoint, 12> surfaces{{
     {0.00, {0.80, 0.45, 0.30, 0}},
     {0.35, {0.85, 0.52, 0.36, 0}},

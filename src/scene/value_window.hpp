@@ -1,6 +1,6 @@
 #pragma once
-// The range of a volume's values that the transfer function covers, as set by the factors `window`
-// and `mapping`.
+// The range of a volume's values that the transfer function covers, as set by the factors
+// (settings) `window` and `mapping`.
 
 #include <optional>
 #include <string>

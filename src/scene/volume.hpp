@@ -28,7 +28,7 @@ enum class Mapping : std::uint8_t { linear, logarithmic };
 // and the volume fills [0, size·spacing] in world units. Outside the outermost centres, the field
 // has the value of the nearest edge.
 struct Volume {
-  std::string name;  // the `data` factor: a file name or generate:NAME:SIZE
+  std::string name;  // the factor (setting) `data`: a file name or generate:NAME:SIZE
   std::array<int, 3> size{};
   std::array<double, 3> spacing{1, 1, 1};
   ScalarType type = ScalarType::u8;
@@ -47,7 +47,8 @@ struct Volume {
   [[nodiscard]] double value(std::size_t index) const;
 };
 
-// The format in which voxels are stored on a device: the levels of the factor `voxel`.
+// The format in which voxels are stored on a device. The formats are the levels (values) of the
+// factor `voxel`.
 enum class VoxelFormat : std::uint8_t { u8, u16, f32, f16 };
 [[nodiscard]] std::string_view name_of(VoxelFormat format);
 [[nodiscard]] VoxelFormat voxel_format(std::string_view name);  // throws InputError
@@ -58,12 +59,14 @@ enum class VoxelFormat : std::uint8_t { u8, u16, f32, f16 };
 
 // Voxels as uploaded to a device. The normalised value, which is 0..1 over the range, is
 //   x = stored·scale + offset     (stored: the integer, or the float itself)
-// - u8 and u16 store 8-bit and 16-bit integer files exactly, regardless of their range.
+// - u8 and u16 store integers of up to 8 and 16 bits exactly, regardless of their range, if the
+//   mapping is linear and no value is clamped. Otherwise they store x, rounded to a multiple of
+//   1/255 or 1/65535.
 // - f32 stores x itself, clamped to [0, 1], with NaN as 0.
 // - f16 stores halves ≥ 0, none of which is subnormal. They are the integers of a file minus the
-//   lower end of the range, if halves represent these exactly (fits_halves). Otherwise they are
-//   2¹⁵·x, rounded, and x below 2⁻²⁹ becomes 0. Therefore no voxel overflows, and it does not
-//   matter how a device treats subnormals.
+//   lower end of the range (rounded down), if halves represent these differences exactly (see
+//   fits_halves()). Otherwise they are 2¹⁵·x, rounded, and x below 2⁻²⁹ becomes 0. Therefore no
+//   voxel overflows, and it does not matter how a device treats subnormals.
 struct VoxelGrid {
   VoxelFormat format = VoxelFormat::f32;
   std::array<int, 3> size{};
@@ -89,8 +92,8 @@ struct VoxelGrid {
 [[nodiscard]] VoxelFormat lossless_format(const Volume& volume);
 
 // Returns whether f16 represents every voxel exactly. This is the case for integers with a linear
-// mapping if each of them has at most 11 significant bits after the integer part of the range's
-// lower end has been subtracted.
+// mapping and no clamped value if each of them has at most 11 significant bits after the lower end
+// of the range (rounded down) has been subtracted.
 [[nodiscard]] bool fits_halves(const Volume& volume);
 
 // Converts the volume to a format. If the format cannot represent the values exactly, they are
@@ -98,7 +101,7 @@ struct VoxelGrid {
 // voxels are moved, so that only one copy exists in memory.
 [[nodiscard]] VoxelGrid encode(Volume&& volume, VoxelFormat format);
 
-// The value that is drawn for voxels with several values: the levels of the factor `component`.
+// The value that is drawn for voxels with several values, as selected by the factor `component`.
 struct Component {
   std::uint64_t index = 0;  // 0-based
   bool magnitude = false;   // draw the Euclidean length of all values instead

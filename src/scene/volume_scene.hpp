@@ -10,8 +10,8 @@
 
 namespace triptych::scene {
 
-// Shading with the light at the eye. With the unit gradient n and the ray direction d, the colour
-// is
+// Shading with the light at the eye. With the unit gradient n and the ray direction d, a sample of
+// colour c contributes the colour
 //   c' = c·(ambient + diffuse·|n·d|) + specular·|n·d|^exponent,
 // where n·d is replaced by (g·d)/max(|g|, gradient_floor). g is the gradient of the normalised
 // value per smallest spacing, computed from central differences of one voxel to either side. The

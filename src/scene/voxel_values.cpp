@@ -150,7 +150,7 @@ void convert_in_place(Volume& volume, ScalarType type) {
   volume.type = type;
 }
 
-// Converts integers to doubles if floats cannot represent them exactly.
+// Converts integers to doubles. This is necessary if floats cannot represent them exactly.
 template <typename From>
 void convert_to_doubles(Volume& volume) {
   if constexpr (sizeof(From) == sizeof(double)) {

@@ -154,7 +154,8 @@ ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
   } else if (key == "color_scalars") {
     need(3, "COLOR_SCALARS name components");
     layout.type = header.binary ? StoredType::u8 : StoredType::f32;
-    // The values are read as bytes, but an ASCII file contains them as fractions of 255.
+    // A binary file contains bytes. An ASCII file contains numbers from 0 to 1. They are multiplied
+    // by 255, so that both kinds of file result in the same values.
     if (!header.binary) layout.slope = 255;
     layout.components = count_of(lines, words[2]);
   } else if (key == "field") {
