@@ -238,9 +238,9 @@ void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
   }
 }
 
-// Reads plain voxels. Address space is reserved for all voxels at once, so that the vector never
-// has to copy them. The operating system provides memory only as voxels are read, so a false claim
-// in a header does not cost memory.
+// Reads voxels that need no conversion (see is_plain()). Address space is reserved for all voxels
+// at once, so that the vector never has to copy them. The operating system provides memory only as
+// voxels are read, so a header that claims too many voxels does not cost memory.
 void take_plain(VoxelBytes& voxels, std::uint64_t needed, Files& files) {
   constexpr std::uint64_t piece = std::uint64_t{16} << 20;
   voxels.reserve(needed);
