@@ -25,9 +25,10 @@ struct ComparisonOptions {
   measure::SideOptions b;
   std::vector<measure::InjectedFault> faults;  // faults to inject into side b
   // The time budget, counted from the start of the comparison. When it is used up, no further
-  // blocks are measured. Without the deterministic measurements, the first look at each
-  // configuration and the confirmation, there would be no result, so these are always completed,
-  // regardless of the budget. Part of the budget is reserved for the confirmation of suspects.
+  // blocks (groups of interleaved batches) are measured, with three exceptions, without which there
+  // would be no result: the deterministic measurements, the blocks before the first evaluation of
+  // each configuration, and least_process_runs fresh process runs, which confirm that a
+  // configuration is slower or faster. Part of the budget is reserved for these process runs.
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
@@ -37,7 +38,7 @@ struct ComparisonOptions {
 };
 
 // The frame times of one side: the median and the quartiles over all blocks of its first process
-// run.
+// run (the lifetime of one worker process).
 using SideTime = record::Summary;
 
 // The results of comparing one configuration.

@@ -96,7 +96,7 @@ struct Difference {
 
 // Differences of the same kind in the same measurement, which are reported together.
 struct DifferenceGroup {
-  Difference difference;  // largest change, or the first if none has a ratio
+  Difference difference;  // the largest change, or the first difference if none has a ratio
   std::string where;      // configuration of `difference`; empty: a difference between devices
   int count = 0;
   std::optional<std::pair<double, double>> ratios;  // the smallest and the largest `ratio`

@@ -18,9 +18,9 @@ using Kind = DifferenceKind;
 using Cause = DifferenceCause;
 using measure::Side;
 
-// The tolerated relative increase in the number of instructions per frame if the sides use
-// different drivers, or the same driver with different settings. It equals the tolerated increase
-// in time (SequentialDesign::standard()).
+// The tolerated relative increase in the number of instructions per frame if both sides use the
+// same device, but with different driver versions or settings. It equals the tolerated increase in
+// time (SequentialDesign::standard()).
 constexpr double frame_across_setups = 0.01;
 // Changes in the preparation cost are reported only if they exceed this relative limit, because
 // that cost varies from run to run.
@@ -186,10 +186,10 @@ class Finder {
         .numbers = image_change(a_.image, b_.image);
   }
 
-  // Compares the instructions of a frame. If both sides are the same device, each part of the frame
-  // must stay within its own small tolerance, even if the sides run different programs. If the
-  // sides are two versions of one device, only the cost of the whole frame is limited: it may grow
-  // by frame_across_setups.
+  // Compares the instructions of a frame. If both sides have the same device key (driver version
+  // and settings), each part of the frame must stay within its own small tolerance, even if the
+  // sides run different programs. If only their device ids are equal, only the cost of the whole
+  // frame is limited: it may grow by frame_across_setups.
   void cost() {
     const record::Counts& before = a_.record.cost;
     const record::Counts& now = b_.record.cost;

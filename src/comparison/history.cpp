@@ -129,8 +129,8 @@ void HistoryBuilder::add_changes(const record::Store& store,
   }
 }
 
-// Adds the values of one store to the chain. Returns the mean ratio of these values to those of the
-// first store, which is 1 for the first store itself. Returns nullopt if this store has no values,
+// Adds the values of one store to the chain. Returns the index of this store (HistoryPoint::cost or
+// HistoryPoint::time), which is 1 for the first store. Returns nullopt if this store has no values,
 // or if its configurations have no values in any earlier store.
 std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfiguration& here,
                                              std::optional<double> Measured::*value) {

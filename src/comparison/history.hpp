@@ -21,10 +21,11 @@ struct HistoryPoint {
   std::string driver_version;
   std::string triptych;            // version of Triptych that measured the results
   std::set<std::string> injected;  // faults injected with `run --inject`
-  // Cost and time relative to the first point. For each configuration, the ratio to the most recent
-  // earlier store that contains the configuration is multiplied by the result for that store. The
-  // result for this store is the geometric mean over all configurations, or nullopt if no earlier
-  // store contains any of them.
+  // Chained indices of cost and time, which are 1 for the first point. The index of each later
+  // point is a geometric mean over its configurations. Each configuration contributes its cost or
+  // time, divided by its value in the most recent earlier store that contains it, and multiplied by
+  // the index of that earlier store. The index is nullopt if no earlier store contains any of the
+  // configurations.
   std::optional<double> cost;  // instructions of generated code and driver
   std::optional<double> time;  // median frame time on the wall clock, available in all stores
   // The changes of each configuration relative to the most recent earlier store that contains it.
@@ -66,8 +67,8 @@ class HistoryBuilder {
 
  private:
   using Points = std::map<std::string, HistoryPoint>;  // by device
-  // The most recent cost or time of a configuration (`amount`), and the value of its HistoryPoint
-  // (`value`), which is relative to the first point.
+  // The most recent cost or time of a configuration (`amount`), and the index (HistoryPoint::cost
+  // or HistoryPoint::time) of the store that contains it (`value`).
   struct Link {
     double amount;
     double value;

@@ -66,6 +66,7 @@ double statistic_variance(double n, double ties) {
 
 // Returns the number of sorted Walsh averages that lie outside the interval at each end. For
 // distinct differences, this is the largest k with P(V ≤ k − 1) ≤ tail, or 0 if there is no such k.
+// V is the signed-rank statistic of n differences.
 std::size_t averages_outside(std::size_t n, double tail) {
   if (n > most_for_exact) {
     const auto count = static_cast<double>(n);

@@ -110,7 +110,8 @@ class Diffing {
                 a.device.id,
                 DeviceChange{.a = a.device, .b = b.device, .device = {}, .configurations = {}})
             .first->second;
-    // Totals belong to a plan, and the other differences to the device.
+    // A total over all configurations belongs to one plan, so its name gets the plan as a prefix.
+    // All other differences in this list belong to the device.
     for (Difference& each : diff.device) {
       if (each.subject == Subject::code_total) each.name = fmt::format("{} {}", plan, each.name);
     }

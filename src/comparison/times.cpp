@@ -15,7 +15,8 @@ namespace {
 using measure::Side;
 using measure::SideClock;
 
-// A configuration, and the data needed to measure more of its blocks.
+// A configuration, and the data needed to measure more of its blocks (groups of interleaved
+// batches).
 struct Entry {
   Compared& compared;
   std::array<std::vector<std::string>, 2> faults;
@@ -145,7 +146,8 @@ class Timer {
     return options_.budget && since_begin_.elapsed() >= *options_.budget;
   }
 
-  // Returns the minimum time needed to confirm the current suspects.
+  // Returns the minimum time needed to confirm the current suspects (configurations that seem
+  // slower or faster) with fresh process runs.
   [[nodiscard]] double confirmation_s() const {
     double seconds = 0;
     for (const Entry& entry : entries_) {

@@ -1,5 +1,5 @@
 #pragma once
-// Determines how a frame fails, using the rules of the gate.
+// Determines how a frame fails, using the same rules as `triptych gate`.
 
 #include <functional>
 #include <optional>
