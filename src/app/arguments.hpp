@@ -109,6 +109,6 @@ void add_validate_command(Commands& commands);
 void add_features_command(Commands& commands);
 void add_export_command(Commands& commands);
 void add_test_commands(Commands& commands);      // commands for CTest
-void add_document_commands(Commands& commands);  // commands for the build
+void add_document_commands(Commands& commands);  // commands that only the build calls
 
 }  // namespace triptych::app

@@ -22,7 +22,8 @@ std::string why(const measure::Broken& broken) {
 }
 
 // The devices that were opened (`greeted`), the devices that cannot be used (`broken`), and the ids
-// of devices that only compile and were not opened (`compilers`).
+// of devices that only compile code, for a GPU that is not present, and were not opened
+// (`compilers`).
 struct Devices {
   std::vector<Greeting> greeted;
   std::vector<measure::Broken> broken;

@@ -115,8 +115,9 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
                                const Registry& registry, measure::Truths& truths) {
   judge::GateRequest request = request_of(truths, judged.plan, registry.suite(judged.plan.suite));
   request.devices = judged.devices.empty() ? arguments.devices : judged.devices;
-  // A device that only compiles is required only for plans with the check `code`. Any other device
-  // that --require names is required only for the remaining plans.
+  // A device that only compiles code (for a GPU that is not present) is required only for plans
+  // with the check `code`. Any other device that --require names is required only for the remaining
+  // plans.
   for (const std::string& glob : arguments.required) {
     const bool compiles = measure::compile_only(glob).has_value();
     if (compiles == judged.plan.compiled()) request.required_devices.push_back(glob);

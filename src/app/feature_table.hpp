@@ -19,7 +19,8 @@ using FeatureTable = std::map<std::string, std::vector<measure::FeatureRow>>;
 [[nodiscard]] FeatureTable probe_devices(const std::vector<std::string>& devices,
                                          const std::string& only, int limit_s);
 
-// Returns one line per probe, with the size of the probe and its error or the reason for its skip.
+// Returns one line per probe, with the largest size that the probe used, such as "100000 draws",
+// and its error or the reason for its skip.
 [[nodiscard]] std::string feature_text(const FeatureTable& table);
 [[nodiscard]] core::Json feature_json(const FeatureTable& table);
 

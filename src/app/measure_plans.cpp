@@ -195,9 +195,9 @@ void tell_the_fastest(const Bench& bench, const measure::Plan& plan, const std::
 }
 
 // Returns the devices on which plans are measured. Plans with the check `code` (`compiled`) are
-// measured on GPUs and on devices that only compile, but not on CPU devices, because the plans with
-// the check `cost` already count the instructions of CPU devices. All other plans are measured on
-// all devices except those that only compile.
+// measured on GPUs and on devices that only compile code (for a GPU that is not present), but not
+// on CPU devices, because the plans with the check `cost` already count the instructions of CPU
+// devices. All other plans are measured on all devices except those that only compile.
 std::vector<std::string> devices_of(const measure::Listing& listing,
                                     const std::vector<std::string>& globs, bool compiled) {
   std::vector<std::string> chosen = measure::choose_devices(listing, globs);

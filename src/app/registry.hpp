@@ -24,8 +24,8 @@ struct Registry {
   // Lists the devices of this machine. If globs are given, opens only the APIs that may have a
   // matching device, because opening the drivers of an API takes about a quarter of a second.
   [[nodiscard]] measure::Listing devices(const std::vector<std::string>& globs) const;
-  // Lists the same devices as devices(), and the devices that only compile
-  // (measure::list_compilers).
+  // Lists the same devices as devices(), and the devices that only compile code, for a GPU that is
+  // not present (measure::list_compilers()).
   [[nodiscard]] measure::Listing devices_and_compilers(const std::vector<std::string>& globs) const;
 };
 

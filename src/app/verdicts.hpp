@@ -53,14 +53,14 @@ struct VerdictFiles {
   std::string folder;  // the folder for the files described in report/ci/folder.hpp
   std::string junit;
   std::string markdown;
-  std::string json;       // "-": print JSON instead of the last screen
+  std::string json;       // "-": print JSON instead of the summary in report/screen/last_screen.hpp
   std::string baselines;  // the folder of the baselines that were used
   CiSystem ci = CiSystem::none;
 };
 
-// Writes the files and the output for the CI system, and prints the last screen, which lists the
-// files in the folder. `seconds` is the total time of the command. Returns the exit code for all
-// results.
+// Writes the files and the output for the CI system, and prints a summary
+// (report/screen/last_screen.hpp), which lists the files in the folder. `seconds` is the total time
+// of the command. Returns the exit code for all results.
 core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
                             const std::vector<judge::GateResult>& results, double seconds,
                             const VerdictFiles& files);

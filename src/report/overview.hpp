@@ -1,6 +1,6 @@
 #pragma once
-// The verdict on all plans in a few rows. The last screen, the page and the Markdown summary begin
-// with this overview.
+// The verdict on all plans in a few rows. The final terminal output, the HTML page and the Markdown
+// summary begin with this overview.
 
 #include <span>
 #include <string>

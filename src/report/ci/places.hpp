@@ -29,8 +29,8 @@ class FindingPlaces {
   explicit FindingPlaces(Sources sources);
 
   // Returns the line of the stored value with which the configuration was compared, if its file is
-  // in the repository. Otherwise returns the first line of the manifest, of the plan's file, or of
-  // the file that defines the job.
+  // in the repository. Otherwise returns the first line of the baselines' manifest, of the plan's
+  // file, or of the file that defines the CI job.
   [[nodiscard]] SourcePlace of(const judge::Finding& finding,
                                const judge::GateResult& result) const;
 

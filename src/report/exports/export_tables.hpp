@@ -15,8 +15,8 @@ namespace triptych::report {
 
 // An error of a record's image. Full scale (white) is 1.
 struct ImageError {
-  std::string against;  // "reference" or "limit"
-  std::string metric;   // "rms", "covered", "p99.9" or "max"
+  std::string against;  // the image that it was compared with: "reference" or "limit"
+  std::string metric;   // "rms", "covered", "p99.9" or "max" (accuracy/requested_error.hpp)
   double error = 0;
 };
 

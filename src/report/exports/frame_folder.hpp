@@ -32,8 +32,8 @@ struct HeldAgainstTruth {
 };
 
 // Compares an image with its reference image. Writes truth.exr, truth.png, and difference.png,
-// which shows the error of each pixel as a share of its bound (figures/share_of_bound.hpp). Throws
-// IoError.
+// which shows the error of each pixel as a share of its error bound (figures/share_of_bound.hpp).
+// Throws IoError.
 [[nodiscard]] HeldAgainstTruth write_difference(const std::filesystem::path& folder,
                                                 const core::Image& image,
                                                 const judge::TruthPair& pair);

@@ -58,9 +58,9 @@ std::optional<double> cost_of(const accuracy::AccuracyCase& each, Cost cost) {
   return std::nullopt;
 }
 
-// Returns the name that determines the colour of a case: the name of its family. For a family with
-// only one member, returns the technique instead, because otherwise there could be as many colours
-// as points.
+// Returns the name that determines the colour of a case: the name of its family (the configurations
+// that differ only in the step size). For a family with only one member, returns the technique
+// instead, because otherwise there could be as many colours as points.
 std::string colour_name(const accuracy::AccuracyFamily& family,
                         const accuracy::AccuracyCase& each) {
   const auto technique = each.factors.find("technique");
@@ -76,7 +76,8 @@ std::optional<Figure::Place> place_of(const accuracy::AccuracyCase& each, Cost c
   return Figure::Place{each.rmse, *paid};
 }
 
-// Formats a goal as "1/255", or as "0.0001" if the denominator would have many digits.
+// Formats a goal (an error for which the report states the cost) as "1/255", or as "0.0001" if the
+// denominator would have many digits.
 std::string goal_name(double goal) {
   constexpr double largest_denominator = 9999;
   const double denominator = std::round(1 / goal);
@@ -126,8 +127,8 @@ class Diagram {
     for (const Figure::Place& place : places) values.push_back(place.*coordinate);
     return values;
   }
-  // Finds the front for the displayed kind of cost, because the fastest configuration need not be
-  // the one that needs the least memory.
+  // Finds the Pareto front for the displayed kind of cost, because the fastest configuration need
+  // not be the one that needs the least memory.
   void find_front() {
     front_ = accuracy::pareto_front(scene_.cases, [this](const accuracy::AccuracyCase& each) {
       const auto place = place_of(each, cost_);

@@ -7,11 +7,11 @@
 
 namespace triptych::report {
 
-// An image of the error of each pixel as a share of its bound. The colour ramp goes from black (no
-// error) through blue and yellow to white (equal to the bound). A pixel is cyan if its error
-// exceeds the bound, if a value is not finite, or if the pixel shows a different particle than the
-// reference image. Cyan differs from every colour of the ramp either in lightness or on the
-// blue-yellow axis, so that colour-blind readers without red or green cones can distinguish it.
+// An image of the error of each pixel as a share of its error bound. The colour ramp goes from
+// black (no error) through blue and yellow to white (equal to the bound). A pixel is cyan if its
+// error exceeds the bound, if a value is not finite, or if the pixel shows a different particle
+// than the reference image. Cyan differs from every colour of the ramp either in lightness or on
+// the blue-yellow axis, so that colour-blind readers without red or green cones can distinguish it.
 struct ShareOfBound {
   core::Image image;
   int x = -1;  // the first pixel with the largest share; -1 if no pixel has an error

@@ -1,5 +1,5 @@
 #pragma once
-// Reports how close the errors of images come to their bounds. If no image comes close to its
+// Reports how close the errors of images come to their error bounds. If no image comes close to its
 // bound, the bound is a weak test.
 
 #include <cstddef>

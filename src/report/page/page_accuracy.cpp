@@ -37,8 +37,8 @@ const accuracy::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_
   });
 }
 
-// Returns the Pareto front with the largest area among all devices, for the same limit image as in
-// `scene`.
+// Returns the largest area (hypervolume) of a Pareto front on any device. Considers only scenes
+// with the same limit image (with exact ray integrals) as `scene`.
 const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
                                   const AccuracyScene& scene) {
   const accuracy::FrontArea* best = &*scene.area;

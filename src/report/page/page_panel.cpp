@@ -71,7 +71,7 @@ Html picture(const Image& image, std::string_view alt) {
                 data_uri(core::encode_png(image)), image.width, image.height, alt);
 }
 
-// Returns the image with rings around the marked pixels beyond the bound.
+// Returns the image with rings around the marked pixels, whose errors exceed their bounds.
 Html ringed(const Html& image, const ShareOfBound& shares) {
   if (shares.marks.empty()) return image;
   Html rings;

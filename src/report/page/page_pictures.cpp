@@ -89,7 +89,8 @@ Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {
                 part(scene, from, to));
 }
 
-// Shows the image of each scene that comes closest to its bound. Used if no image is wrong.
+// Shows, for each scene, the image whose error comes closest to its bound. Used if no image is
+// wrong.
 Html one_of_each(std::span<const Scene> scenes) {
   Html text = markup("<div class=\"panels\">");
   for (const Scene& scene : scenes) {

@@ -28,7 +28,8 @@ struct PlanData {
 // The findings about an image.
 struct Judged {
   std::set<std::string_view> checks;  // the checks that judged the image
-  std::string cause;                  // element id of the first open cause; empty if there is none
+  // Element id of the first cause that needs attention; empty if there is none.
+  std::string cause;
 };
 using JudgedPictures = std::map<std::string, Judged>;  // the key is picture_id()
 [[nodiscard]] JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans);

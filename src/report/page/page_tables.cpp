@@ -1,4 +1,5 @@
-// The sections about devices, times, speed of light and counts, which consist mainly of tables.
+// The sections about devices, times, the speed of light (the time of the memory fetches alone) and
+// counts, which consist mainly of tables.
 
 #include <fmt/format.h>
 

@@ -42,8 +42,8 @@ struct WideBound {
 };
 inline constexpr double one_step = 1.0 / 255;
 
-// Returns the largest bound in an image. Ignores pixels in which rounding may make another particle
-// visible, because their bounds also allow the colours of that particle.
+// Returns the largest error bound of any pixel. Ignores pixels in which rounding may make another
+// particle visible, because their bounds also allow the colours of that particle.
 [[nodiscard]] double largest_bound(const core::Image& bound);
 [[nodiscard]] std::string bounds_text(std::vector<WideBound> bounds);
 

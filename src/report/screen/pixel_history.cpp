@@ -154,8 +154,8 @@ void add_rows(const accuracy::RayHistory& history, PixelText& text) {
   }
 }
 
-// Returns lines with the colours of the pixel in the image, in the recording build and in the
-// reference image.
+// Returns lines with the colours of the pixel in the device's image, in the frame that was drawn to
+// record the samples, and in the reference image.
 std::vector<std::string> colours_of(const PixelInImage& pixel) {
   double error = 0;
   for (std::size_t k = 0; k < 4; ++k) {

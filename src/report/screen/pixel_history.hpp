@@ -18,8 +18,10 @@ using PixelColour = std::array<float, 4>;  // premultiplied RGBA
 struct PixelInImage {
   int x = 0;
   int y = 0;
-  PixelColour image{};                    // the colour in the image of the timed build
-  std::optional<PixelColour> recorded{};  // the colour from the build that records the samples
+  PixelColour image{};  // the colour in the device's image
+  // The colour in a second frame, which was drawn by a build of the device code that also records
+  // the samples.
+  std::optional<PixelColour> recorded{};
   PixelColour reference{};
   double bound = 0;        // the error bound, which is the same for all channels
   std::uint64_t lost = 0;  // number of samples that did not fit into the recording buffer

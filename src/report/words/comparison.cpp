@@ -136,7 +136,7 @@ std::string range_of(const std::pair<double, double>& ratios) {
   return least == largest ? least : least + " to " + largest;
 }
 
-// A part of a device key.
+// A part of a device key (record::Device::key()).
 struct KeyPart {
   std::string text;
   std::string variable = {};  // the name, if this part is an environment variable
