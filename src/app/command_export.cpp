@@ -30,9 +30,9 @@ struct ExportArguments {
   bool json = false;
 };
 
-// Computes the errors of images against their reference images and their limit images (with
-// exact ray integrals). Reference images cannot be saved in a read-only store, so
-// they are drawn again for each export from such a store.
+// Computes the errors of images against their reference images and their limit images (with exact
+// ray integrals). Reference images cannot be saved in a read-only store, so they are drawn again
+// for each export from such a store.
 class Errors {
  public:
   explicit Errors(const std::vector<std::string>& files) : registry_(make_registry()) {

@@ -165,9 +165,9 @@ std::vector<record::Device> found_devices(const GateArguments& arguments, const 
   return found;
 }
 
-// Limits default plans with the check `code` to devices that have stored code, and removes plans
-// for which there is no such device. Changes nothing if the user names plans or requires a device
-// that only compiles.
+// Limits default plans with the check `code` to devices for which the baselines contain compiled
+// code, and removes plans for which there is no such device. Changes nothing if the user names
+// plans or requires a device that only compiles.
 void limit_to_stored_code(const GateArguments& arguments, const Registry& registry,
                           std::vector<JudgedPlan>& plans) {
   if (!arguments.plans.empty() || measure::name_a_compiler(arguments.required)) return;

@@ -11,9 +11,9 @@
 
 namespace triptych::report {
 
-// Returns the findings that do not pass, the numbers of the worst finding, and the headline. If
-// `truth` is not empty, also writes the device image, the reference image and the difference image
-// for the worst finding to a temporary folder and adds their paths.
+// Returns the findings that do not pass, the numbers of the worst finding, and a one-line summary.
+// If `truth` is not empty, also writes the device image, the reference image and the difference
+// image for the worst finding to a temporary folder and adds their paths.
 [[nodiscard]] std::string ctest_answer(const judge::GateResult& result, const record::Store& store,
                                        const judge::FindTruth& truth);
 

@@ -36,7 +36,7 @@ std::string details_of(const FindingGroup& group, const judge::GateResult& resul
 }
 
 // Returns all findings that do not pass, grouped by cause, followed by the number of findings with
-// each verdict and the headline.
+// each verdict and a one-line summary.
 std::string log_of(const judge::GateResult& result) {
   std::string text;
   for (const FindingGroup& group : grouped(result.findings)) {
