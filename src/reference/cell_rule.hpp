@@ -1,12 +1,18 @@
 #pragma once
 // Applies Quadrature::cells along one ray and bounds the errors of a device.
 //
-// A piece is integrated by the two-point Gauss rule. Its optical depth is its length times the mean
-// of the extinctions τ₁ and τ₂ at the two points. The colour is assumed to be linear in y, the
-// share of the piece's optical depth that has been passed, so the colour of the piece is
-// c₁ + f·(c₂ − c₁). By collocation, the points are at y = ½ ∓ (1 ± δ)/(2√3), with
-// δ = (τ₂ − τ₁)/(τ₁ + τ₂). The mean of y under the weight e^(−Dy), where D is the optical depth, is
-// ½ − ½·L(D/2) with L(z) = coth z − 1/z. Therefore
+// A cell is the cube between eight neighbouring voxel centres. A kink is an entry of the transfer
+// function at which its slope changes (scene/kinks.hpp). The ray is cut where it passes from one
+// cell to the next. Each segment between these cuts is divided into equal parts
+// (VolumeScene::parts_of_cell), which are cut again where the value passes a kink. A piece is what
+// lies between two neighbouring cuts.
+//
+// A piece is integrated by the two-point Gauss rule. Let τ₁ and τ₂ be the extinctions at the two
+// points, and c₁ and c₂ the colours. The optical depth of the piece is its length times the mean of
+// τ₁ and τ₂. The colour is assumed to be linear in y, the share of the piece's optical depth that
+// has been passed, so the colour of the piece is c₁ + f·(c₂ − c₁). By collocation, the points are
+// at y = ½ ∓ (1 ± δ)/(2√3), with δ = (τ₂ − τ₁)/(τ₁ + τ₂). The mean of y under the weight e^(−Dy),
+// where D is the optical depth, is ½ − ½·L(D/2) with L(z) = coth z − 1/z. Therefore
 //
 //   f = ½·(1 + δ − √3·L(D/2)), clamped to [0, 1].
 //
@@ -23,7 +29,7 @@
 //
 // If a device makes the same cuts, its rule has nearly the same error as the rule here. Suppose
 // that an end of a piece of length h moves by ε. Then the rule and the integral of a function g
-// change by at most ε·(range of g + h·|g′|/2), with g′ at the points. For a cubic,
+// change by at most ε·(range of g + h·|g′|/2), with the derivative g′ at the points. For a cubic,
 // h·|g′| ≤ 3√(3/2)·range at the points (Bernstein), so the change is less than 3·ε·range. The six
 // points that are looked up here cover more than three quarters of this range. A cut next to an
 // extremum moves by up to twice the error divided by the slope, because its distance from the
@@ -256,7 +262,8 @@ class CellRule {
     return ray;
   }
 
-  // Returns a piece beyond the chord of this ray, which is crossed only by a device's ray.
+  // Returns the piece between two distances that are outside the volume on this ray, but that may
+  // be inside the volume on a device's ray.
   [[nodiscard]] Piece piece_beyond(const Ray& ray, double from, double to) const {
     const Ray wide = widened(ray, 0.5 * (to - from));
     return gauss(wide, from, to, {0.0, 0.0, (to - from) / smallest_spacing_});

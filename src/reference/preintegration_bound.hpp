@@ -10,7 +10,8 @@
 
 namespace triptych::reference {
 
-// A piece along which opacity and colour are linear.
+// A piece along which opacity and colour are linear. a and b are the colour and the opacity at its
+// front and at its back.
 struct PathPiece {
   std::array<double, 4> a{};
   std::array<double, 4> b{};
@@ -28,40 +29,50 @@ struct StepPath {
   std::size_t pieces = 0;
 };
 
-// The bound applies to a device that tabulates the paths between entries. The device cuts a step at
-// the first and the last entry that the step passes. It processes the whole cells between them from
-// front to back, one by one or in chunks whose optical depth is at most (ln 2)/2; once less than
-// 2⁻²⁰ of the light is left, all remaining cells form one chunk. All light below is premultiplied.
-// R is the range of the colour along the path, A the opacity of the step, and T the transmittance
-// from the front of the step.
+// The bound applies to a device that has a table of the paths between all pairs of entries
+// (technique/volume/preintegration.hpp). A cell is the interval between two neighbouring entries.
+// The device cuts a step at the first and the last entry that the step passes. It processes the
+// whole cells between these entries from front to back, one by one or in chunks whose optical depth
+// is at most (ln 2)/2; once less than 2⁻²⁰ of the light is left, all remaining cells form one
+// chunk.
+//
+// All light below is premultiplied. Along the path, τ is the extinction, c the colour, R the range
+// of c, and T the transmittance from the front of the step. A is the opacity of the step, and C its
+// colour before premultiplication. A prime marks a device's quantities.
 //
 //   - Values. A device's values at front and back are within e of the exact values, and so are all
 //     values on its path. Opacity and colour in every piece therefore have an error of at most e
 //     times the steepest slope of the cells in reach, plus table_error. The optical depth is
 //     between the depths for the lowered and the raised opacity.
-//   - Weights. With the step's colour C, ∫(c − C)·τT = 0. By the identity in composite.hpp, a
-//     change of the extinction by δ changes the light by the change of the opacity times C, and in
-//     addition by at most 2R·∫T'δ and by at most R·A. For a piece, ∫T'δ is at most T' at its front
-//     times the change of its depth, and at most the largest relative change of extinction times
-//     the piece's opacity.
-//   - Chunks. e^(−Dy) = Σ (−1)ⁿ·(2n + 1)·e^(−D/2)·i_n(D/2)·Pn(y). The remainder after n = 2 has a
-//     norm of at most D³/(120·√7). This holds because e^(−z)·i₃(z) ≤ z³/105, and because all
-//     further terms decrease faster than the factor e^(−z) lets this term grow. After subtracting
-//     the middle of its range, the colour is at most R/2, so the light of a chunk of depth D has an
-//     error of at most R·D⁴/635 (Cauchy–Schwarz). With D ≤ (ln 2)/2 this is 7.8e-5·R times the
+//   - Weights. C is the mean of c with the weights τT, so ∫(c − C)·τT = 0. By the identity in
+//     composite.hpp, a change of the extinction by δ changes the light by the change of the opacity
+//     times C, and in addition by at most 2R·∫T'δ and by at most R·A. For a piece, ∫T'δ is at most
+//     T' at its front times the change of its depth, and at most the largest relative change of
+//     extinction times the piece's opacity.
+//   - Chunks. Let D be the optical depth of a chunk, y the share of D that the light has passed,
+//     i_n the modified spherical Bessel functions, and Pn the Legendre polynomials on [0, 1]. Then
+//     e^(−Dy) = Σ (−1)ⁿ·(2n + 1)·e^(−D/2)·i_n(D/2)·Pn(y). The table contains the colour's first
+//     three coefficients, so a device loses the terms after n = 2. Their sum has an L² norm of at
+//     most D³/(120·√7). This holds because e^(−z)·i₃(z) ≤ z³/105 for z = D/2, and because the
+//     difference between the two sides is larger than the contribution of all further terms. After
+//     subtracting the middle of its range, the colour is at most R/2, so the light of the chunk has
+//     an error of at most R·D⁴/635 (Cauchy–Schwarz). With D ≤ (ln 2)/2 this is 7.8e-5·R times the
 //     chunk's opacity, so all chunks together have an error of at most 7.8e-5·R·A.
-//   - Deep cells. Along one cell, the colour is linear in the position. Consider the position as a
-//     function of the share of the depth that the light has passed. This function differs from the
-//     polynomial with its first three coefficients by at most t²/4, where t is the relative change
-//     of the extinction around its mean (a test checks all cases). The light of a cell with colour
-//     range R therefore has an error of at most R·A·t²/4 for any depth.
+//   - Deep cells. A single cell may be deeper than (ln 2)/2. Along one cell, the colour is linear
+//     in the position. Consider the position as a function of the share of the depth that the light
+//     has passed. This function differs from the polynomial with its first three Legendre
+//     coefficients by at most t²/4, where t is the relative change of the extinction around its
+//     mean (a test checks all cases). The light of a cell with colour range R therefore has an
+//     error of at most R·A·t²/4 for any depth.
 //   - Ends. Within the first and the last cell, the extinction is assumed to be linear. It deviates
-//     from a line by at most Δ²/8(1 − α)², where Δ is the rise of the opacity over the cell. This
-//     deviation is treated like a change of weights. The series of the mean logarithm is truncated
-//     after r¹², with r = Δ/2(1 − α), which loses r¹⁴/(210·(1 − r²)) per voxel, at most 0.038.
+//     from a straight line by at most Δ²/(8·(1 − α)²), where α is the largest opacity in the cell
+//     and Δ the rise of the opacity over the cell. This deviation is treated like a change of
+//     weights. A device computes the mean of ln(1 − α) by a series, which it truncates after r¹²
+//     with r = Δ/(2·(1 − α)). That loses r¹⁴/(210·(1 − r²)) of the optical depth per voxel, at most
+//     0.038.
 //   - Lengths. A device's cells are longer or shorter than the exact cells by a factor of at most
 //     1/(1 − 2e/|to − from|). If this factor is more than 2, the path hardly leaves a cell, and the
-//     error is bounded by R of that path.
+//     colour range R of the path bounds the error.
 //   - Rounding. The opacity has the model's opacity_error, and one compositing_error for each piece
 //     beyond three. The colour has eight compositing_errors for the sum of three coefficients, and
 //     two for each piece.
