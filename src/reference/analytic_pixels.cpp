@@ -144,7 +144,8 @@ Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double l
 
 // Returns ∫ |error of g| ds along the ray. The error is caused by trilinear interpolation and, near
 // the faces, by clamping. The derivatives are replaced by their maxima within the diagonal of a
-// cell: |∂ᵢg| = rᵢ·g/σ² and |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ².
+// cell: |∂ᵢg| = rᵢ·g/σ² and |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ², where rᵢ is the distance from the centre
+// along axis i.
 double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   constexpr int intervals = 512;
   const double sigma = blob_sigma(setting);
@@ -215,10 +216,11 @@ double length_within(const Chord& chord, const Closest& closest, double radius) 
 
 // Returns w, half the width of the zone around a face of the shell in which grid and table may
 // differ from the closed-form solution. The table changes from one entry to the next within
-// h ≈ R/510 on each side of the face. The distance r that the grid stores has an error of at most
-// D/(r − d), plus its rounding. Here, d is the diagonal of a cell, and D = Σ Δᵢ²/8 because
-// |∂ᵢ²r| ≤ 1/r. Therefore w is the smaller root of (w − h)(s − w) = D with s = face − d. The result
-// is infinite if there is no root, which means that the grid is too coarse.
+// h ≈ R/510 on each side of the face, where R is Shell::reach. The grid stores the distance r from
+// the centre. When it is interpolated, its error is at most D/(r − d), plus rounding. Here, d is
+// the diagonal of a cell, and D = Σ Δᵢ²/8 because |∂ᵢ²r| ≤ 1/r, with Δᵢ the spacing along axis i.
+// Therefore w is the smaller root of (w − h)(s − w) = D with s = face − d. The result is infinite
+// if there is no root, which means that the grid is too coarse.
 double unsure_zone(const Setting& setting, double face) {
   const auto& spacing = setting.options.spacing;
   double squares = 0;
@@ -349,9 +351,11 @@ AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   return finish(setting, channels, error);
 }
 
-// A shaded colour is c·(ambient + diffuse·l) + specular·lⁿ with l = |direction ·
-// z|·steepest/floor·sin(πz/L). The gradient is that of the continuous wave. The model error
-// includes the effect of central differences.
+// The shaded colour is c·(ambient + diffuse·l) + specular·lⁿ, where n is Shading::exponent, d_z the
+// z component of the ray's direction, L the extent of the box along z, and
+//   l = |d_z|·steepest/gradient_floor·sin(πz/L).
+// The gradient is that of the continuous wave. The model error includes the effect of central
+// differences.
 AnalyticPixel wave_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const Wave wave = wave_of(setting);

@@ -22,8 +22,8 @@ enum class AnalyticProblem {
   v3_plateaus,    // like v3_segment, between two plateaus    order 2 in h; see below
   v4_gaussian,    // Gaussian blob in the middle of the box   order 2 in h and in the voxel size
   v5_atmosphere,  // τ = τ₀·e^(−z/H), constant colour         order 2 in h
-  v6_layers,      // two homogeneous layers along z           irregular in h, ≤ 1 due to the edge
-  v7_shell,       // homogeneous between two spheres          as v6_layers in h; 2 in the voxel size
+  v6_layers,      // two homogeneous layers along z           irregular in h, at most order 1
+  v7_shell,       // homogeneous between two spheres          irregular in h; order 2 in voxel size
   v8_trilinear,   // τ = k·xyz, constant colour               order 2 in h
   v9_wave,        // constant τ, lit by a sine gradient       order 2 in h and in the voxel size
 };
@@ -60,12 +60,13 @@ struct AnalyticPixel {
 // In each problem, the position determines a value g, and the table maps g to the medium. A voxel
 // has the value x = (½ + 255·g)/256, so that table entry k is at g = k/255.
 //
-//   - The problems along z have g = z/L at voxel centres, so g is exactly linear between the first
-//     and the last voxel centre. In the outermost half voxels, the field is constant, and so is τ
-//     in the closed-form solution.
-//   - v4_gaussian: g = e^(−r²/2σ²), with σ a tenth of the smallest extent.
+//   - The problems along z have g = z/L at voxel centres, where L is the extent of the box along z.
+//     So g is exactly linear between the first and the last voxel centre. In the outermost half
+//     voxels, the field is constant, and so is τ in the closed-form solution.
+//   - v4_gaussian: g = e^(−r²/2σ²), with r the distance from the centre of the box and σ a tenth of
+//     its smallest extent.
 //   - v6_layers: g is 0 in one layer and 1 in the other.
-//   - v7_shell: g is the distance from the centre.
+//   - v7_shell: g is proportional to the distance from the centre, up to 1.
 //   - v8_trilinear: g is the product of the heights along the three axes, which trilinear
 //     interpolation reproduces.
 //   - v9_wave, the only shaded problem, is a homogeneous box with g = a·(1 − cos(πz/L))/2. That is
@@ -74,17 +75,18 @@ struct AnalyticPixel {
 //     brightness is proportional to the gradient.
 //   - v3_plateaus: the kinks of the field, at the outermost voxel centres, are on the plateaus,
 //     which are the lowest and the highest fifth of z. The kinks of its medium are at table
-//     entries. A rule that is exact for a linear field therefore has only rounding errors, unless a
-//     step along z is long enough to reach from a kink of the field to a kink of the medium, which
-//     is a distance of size/5 − ½ voxels.
+//     entries. An integration rule that is exact for a linear field therefore has only rounding
+//     errors, unless a step along z is long enough to reach from a kink of the field to a kink of
+//     the medium, which is a distance of n/5 − ½ voxels, with n the number of voxels along z.
 //
 // Derivation of the model error, with u the smallest spacing and α(g) = 1 − e^(−u·τ(g)):
 // interpolating α over 1/255 has an error of at most (1/255)²/8·max|α''|, and rounding to float
 // adds 2⁻²⁴·(α + |α'|). Dividing both by u·(1 − α) gives the error of τ. Multiplying that by the
-// length of the chord gives the error of the image, because the difference between c and the colour
-// behind it is at most 1. Some problems have additional errors:
+// length of the chord gives the error of the image, because the colour of the medium and the colour
+// behind it differ by at most 1. Some problems have additional errors:
 //
-//   - v4_gaussian: the error of trilinear interpolation, Σ Δᵢ²/8·|∂ᵢ²g|, integrated along the ray.
+//   - v4_gaussian: the error of trilinear interpolation, Σ Δᵢ²/8·|∂ᵢ²g|, integrated along the ray,
+//     where Δᵢ is the spacing along axis i.
 //   - v6_layers: the transition between the layers, which is 1/255 voxel thick.
 //   - v7_shell: the part of the ray that is so close to a face that table and interpolation may
 //     move it to the other side of the face.

@@ -59,9 +59,10 @@ struct LinearSegment {
 // of sin(kx): (sin k(x+Δ) − sin k(x−Δ))/2Δ = k·cos(kx) · sin(kΔ)/(kΔ).
 [[nodiscard]] double v9_difference_factor(double k, double delta);
 
-// Returns the light of V9, ∫ sinⁿ(phase + rate·t)·τ·e^(−τt) dt over [0, length], for τ > 0 and an n
-// that is 1 or even. It is computed as the Fourier sum of sinⁿ, where ∫ e^(i(φ+ωt))·e^(−τt)
-// dt = e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ).
+// Returns the light of V9, ∫ sinⁿ(φ + ω·t)·τ·e^(−τt) dt over [0, length], with the phase φ, the
+// rate ω and the power n, for τ > 0 and an n that is 1 or even. It is computed as the Fourier sum
+// of sinⁿ, with
+//   ∫ e^(i(φ+ωt))·e^(−τt) dt = e^(iφ)·(e^((iω−τ)·length) − 1)/(iω − τ).
 [[nodiscard]] double v9_lit_wave(double tau, int power, double phase, double rate, double length);
 
 // Returns the scaled complementary error function e^(x²)·erfc(x) for x ≥ 0.
