@@ -187,8 +187,9 @@ class Counter {
       tally.skipped += passed + (near ? 1 : 0);
       if (sight.possible) stops.add(sight.opacity);
       if (stops.must_end()) break;
-      // Bricks are visited until the end of a run of visible samples. Here, a device may begin a
-      // run and then end the ray within it, so all bricks of the run may differ.
+      // A device counts the visits of all bricks in a run of visible bricks before it draws the
+      // run. From here on, one device may have ended the ray while another device counts a run
+      // that extends to the end of the volume, so all remaining visits may differ.
       if (!ended && stops.may_end()) {
         const double rest = crossings.between(p, ray.entry + most * stride);
         tally.visited += rest;

@@ -11,8 +11,8 @@
 
 namespace triptych::reference {
 
-// The planes at which a raycaster decides whether it can skip a brick. Along each axis they are at
-// origin + k·edge voxels.
+// The planes between bricks, which are cubes of voxels that a raycaster can skip as a whole. Along
+// each axis, the planes are at origin + k·edge voxels, for all integers k.
 struct BrickPlanes {
   int edge = 0;  // 0 if the raycaster does not skip bricks
   double origin = 0;
@@ -28,10 +28,10 @@ struct BrickPlanes {
 //     With preintegrated steps, an opacity below 2⁻²⁴ may become zero, because 1 − 2⁻ᶻ may be
 //     computed as a difference;
 //   - the side of a plane between bricks to which a sample is assigned, if the sample is closer to
-//     the plane than its position error. This affects one sample and one brick. If the beginning of
-//     a leap moves, its end moves too, because the sizes of the skipped cubes differ by at most the
-//     distance between the cubes. Two sequences of leaps therefore interleave, and their lengths
-//     differ by at most one leap;
+//     the plane than its position error. This affects one sample and one brick. It does so even
+//     with skip=distance, which leaps over a cube of equal bricks around the current brick: the
+//     cubes around two bricks differ in size by at most the distance between these bricks, so the
+//     leaps of two devices interleave along the ray, and their numbers differ by at most one;
 //   - whether a brick between two planes is visited, if the ray crosses both planes at positions
 //     that are equal within their errors;
 //   - with quadrature=cells, two points for each piece that is shorter than the uncertainty of its
