@@ -50,8 +50,8 @@ class Compositor {
   double largest_ = 1;   // largest transmittance on a device so far
   double smallest_ = 1;  // smallest transmittance on a device so far
   // A device with early termination stops after one of the samples first_stop_ … last_stop_. If a
-  // device merges samples, its transmittance has the same error as the image. It may then stop as
-  // early as this error allows, or only at its last sample.
+  // device merges samples, its transmittance may be wrong by up to ErrorModel::adapt. It may then
+  // stop as early as this error allows, or only at its last sample.
   std::size_t first_stop_ = 0;
   std::size_t last_stop_ = 0;
 };

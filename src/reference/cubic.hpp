@@ -1,5 +1,6 @@
 #pragma once
-// A cubic polynomial on [0, 1], and the positions at which its value is an integer.
+// A cubic polynomial on [0, 1], and the positions at which its value is an integer. The values are
+// positions in the table of the transfer function, so the integers from 0 to 255 are its entries.
 
 #include <algorithm>
 #include <array>
@@ -68,7 +69,7 @@ struct Cubic {
     const double half = c2;  // the extrema solve c1 + 2·half·s + 3·c3·s² = 0
     const double discriminant = half * half - 3.0 * c3 * c1;
     if (discriminant > 0.0) {
-      // Both roots are computed from a sum, which avoids cancellation.
+      // q is a sum of two numbers with the same sign, so neither root suffers from cancellation.
       const double q = -(half + std::copysign(std::sqrt(discriminant), half));
       double a = c3 != 0.0 ? q / (3.0 * c3) : 0.0;
       double b = q != 0.0 ? c1 / q : 0.0;

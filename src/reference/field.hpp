@@ -21,12 +21,13 @@ struct Bounded {
 
 // The field of a grid, which is read in place. Stored is the type of a voxel: std::uint8_t,
 // std::uint16_t, float or scene::Half. The stored values, which are exact, are interpolated, and
-// the result is then mapped to the normalised range. Positions are in voxels.
+// the result is then mapped to the normalised range. Positions are in voxels. A cell is the cube
+// between eight neighbouring voxel centres.
 template <typename Stored>
 class Field {
  public:
-  // The grid must outlive the field. The constructor reads every voxel once if the model has a
-  // position error.
+  // The grid must outlive the field. The constructor reads every voxel once, unless the model has
+  // neither a position error nor an error of the interpolation weights.
   Field(const scene::VoxelGrid& grid, const ErrorModel& model);
 
   [[nodiscard]] double at(const glm::dvec3& p) const;
@@ -34,7 +35,8 @@ class Field {
   // Returns the value at p and its error, which is the sum of these terms:
   //
   //   - For each axis, the position error times the largest difference between neighbouring voxels
-  //     in any cell that a device may read instead. (A trilinear field is Lipschitz continuous.)
+  //     in any cell that contains a point within the position error of p. (A trilinear field is
+  //     Lipschitz continuous.)
   //   - filter_weight_error times the spread of the eight voxels.
   //   - value_error.
   //   - voxel_rounding times the sum of the value and all terms above except value_error. The
@@ -42,9 +44,9 @@ class Field {
   //     0, by at most the same relative error.
   [[nodiscard]] Bounded at(const glm::dvec3& p, const glm::dvec3& position_error) const;
 
-  // Returns at(a) − at(b) for two positions that are displaced together by up to `shared_error` per
-  // axis, and each individually by up to `own_error`. A common displacement changes the difference
-  // only by the difference of the slopes.
+  // Returns at(a) − at(b) and its error, for two positions that are displaced together by up to
+  // `shared_error` per axis, and each individually by up to `own_error`. A common displacement
+  // changes the difference only by as much as the slopes at a and b differ.
   [[nodiscard]] Bounded difference(const glm::dvec3& a, const glm::dvec3& b,
                                    const glm::dvec3& shared_error, double own_error) const;
 

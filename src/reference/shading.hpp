@@ -15,8 +15,9 @@
 
 namespace triptych::reference {
 
-// Returns |g·d|/max(|g|, floor) and its error. Let δ be the largest error of g, and m the
-// denominator. A device's denominator is at least m' = max(floor, |g| − δ), so that
+// Returns |g·d|/max(|g|, floor) and its error, where g is the gradient at p and d the direction of
+// the ray. Let cos be the exact value, cos' the value on a device, δ the largest error of g, and m
+// the denominator. A device's denominator is at least m' = max(floor, |g| − δ), so that
 //   |cos' − cos| ≤ |δ|/m' + |g·d|·|m − m'|/(m·m') ≤ (1 + cos)·|δ|/m'.
 // The dot product, the square root, the division and the unit direction add at most eight roundings
 // of a quantity that is at most 1. The six positions around p share the error of p; each of them

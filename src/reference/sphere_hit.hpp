@@ -16,7 +16,7 @@ struct Passage {
   double along = 0;         // b: position of the centre along the ray
   double across = 0;        // p: distance of the centre from the ray
   double half_squared = 0;  // h² = r² − p², with h half the chord; negative if the ray misses
-  double radius = 0;
+  double radius = 0;        // r
 };
 
 // Returns how a ray passes a sphere. `direction` is a unit vector, and `centre` is relative to the
@@ -61,8 +61,10 @@ struct Reach {
   double half_hi = 0;
 };
 
-// Seen from the ray, the centre C (at b along the ray and p across it) rotates about the eye by an
-// angle φ with 2·sin(φ/2) ≤ chord, and shifts across the ray by up to shift·r:
+// A prime marks a quantity of a device, φ is the angle between the device's ray and the exact ray,
+// and the other symbols are those of Passage. Seen from the ray, the centre C (at b along the ray
+// and p across it) rotates about the eye by φ, with 2·sin(φ/2) ≤ chord, and shifts across the ray
+// by up to shift·r:
 //   |p' − p| ≤ δ = chord·|C| + shift·r,
 //   |b' − b| = |b·(cos φ − 1) ± p·sin φ| ≤ Δb = p·chord + |b|·chord²/2,
 //   h'² = r² − p'² between h² − ((p + δ)² − p²) and h² + (p² − (p − δ)²),

@@ -29,19 +29,19 @@ SpherePicture::SpherePicture(const scene::ParticleScene& scene_, const SphereErr
       table_(scene.intensity_colours, 0.0),
       tree(scene, growth()) {}
 
-// At distance 1/along from the eye, the ray reaches the plane at distance 1. A displacement by ε in
-// that plane rotates the ray by φ with sin φ ≤ x = ε·along, and 2·sin(φ/2) = x/cos(φ/2). For x ≥ 1,
-// even opposite rays are possible.
+// At distance 1/along from the eye, the ray reaches the plane that is at distance 1 along the view
+// axis. A displacement by ε in that plane rotates the ray by φ with sin φ ≤ x = ε·along, and
+// 2·sin(φ/2) ≤ x/cos(φ/2). For x ≥ 1, even opposite rays are possible.
 double SpherePicture::chord(double pixels, double along) const {
   const double sine = pixels * pixel_ * along;
   if (!(sine < 1)) return 2;
   return sine / std::sqrt(0.5 + 0.5 * std::sqrt(1 - sine * sine));
 }
 
-// Let D be the distance of a box's farthest corner (no radius in the box is above D) and
-// κ = chord + shift. A sphere in the box is reached if the central ray comes within δ ≤ κD of it,
-// at a point that Reach moves along the ray by up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for
-// rounding.
+// Let D be the distance from the eye to a box's farthest corner (no radius in the box is above D),
+// and κ = chord + shift (Wobble). According to reach(), a nearby ray may hit a sphere in the box
+// only if the central ray comes within δ ≤ κD of the sphere, and the hit may move along the ray by
+// up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for rounding.
 double SpherePicture::growth() const {
   const double turn = chord(std::max(model.margin_px, model.lateral_px), 1.0);
   const double kappa = turn + model.lateral_relative;
@@ -172,9 +172,11 @@ std::array<double, 4> SphereTracer::shaded(std::uint32_t place, double half) con
   return {colour[0] * light, colour[1] * light, colour[2] * light, 1.0};
 }
 
-// t' and h' are within the intervals that Reach contains. Z = t·cos α, where the rotation also
-// changes the angle α between the ray and the view axis: |cos α' − cos α| = 2·sin(φ/2)·|sin(α ±
-// φ/2)| ≤ chord·(sin α + chord/2). The colour is linear in h.
+// A device's distance t' and half chord h' are within the intervals that Reach contains. Z is
+// t·cos α, where α is the angle between the ray and the view axis. A device's ray is rotated by φ,
+// which changes α, too:
+//   |cos α' − cos α| = 2·sin(φ/2)·|sin(α ± φ/2)| ≤ chord·(sin α + chord/2).
+// The colour is linear in h.
 void SphereTracer::bound_shown(const View& view, SpherePixel& pixel) const {
   const Passage ray = pass(view, shown_);
   const Reach reached = reach(ray, view.lateral);

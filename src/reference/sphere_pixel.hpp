@@ -54,11 +54,12 @@ class SpherePicture {
 // Draws pixels. Each thread has its own tracer, because a tracer reuses its memory from pixel to
 // pixel.
 //
-// A sphere is a candidate if some ray within the margin may hit it (Reach) at a smaller depth than
-// the largest depth at which another sphere covers all these rays. Z values are widened by their
-// relative error before they are compared. A pixel is certain if there is exactly one candidate and
-// it covers all rays, or if there is no candidate. Particles with the same centre and radius as the
-// visible particle do not count as rivals, because on an exact tie the lowest id must win.
+// Depths are Z values, that is, distances along the view axis. A sphere is a candidate if some ray
+// within the margin (SphereErrorModel::margin_px) may hit it at a smaller depth than the largest
+// depth at which another sphere covers all these rays. Depths are widened by their relative error
+// before they are compared. A pixel is certain if there is exactly one candidate and it covers all
+// rays, or if there is no candidate. Particles with the same centre and radius as the visible
+// particle do not count as rivals, because on an exact tie the lowest id must win.
 //
 // Instead of sampling rays, this method computes an interval of depth over the whole disc of rays.
 // It therefore finds particles that are smaller than the margin, and in case of doubt it reports

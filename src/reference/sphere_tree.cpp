@@ -33,7 +33,8 @@ SphereTree::SphereTree(const scene::ParticleScene& scene, double growth)
     if (radius > 0) spheres_.push_back({{x, y, z}, radius, static_cast<std::uint32_t>(i)});
   }
   if (spheres_.empty()) return;
-  nodes_.reserve(spheres_.size());  // a leaf has at least two spheres, unless it is the root
+  // A leaf has at least two spheres, unless it is the root, so nodes do not outnumber spheres.
+  nodes_.reserve(spheres_.size());
   build(0, static_cast<std::uint32_t>(spheres_.size()));
 }
 
