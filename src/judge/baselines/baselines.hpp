@@ -15,7 +15,8 @@
 //   timings/<device key>.json {device, configurations: {configuration: {clock, median_ns, spread,
 //                             frames, kernel_hash}}}, from a single run; only for plans that
 //                             check times
-//   images.json               {scene: {reference: two hashes, data…: content hash of its data}}
+//   images.json               {scene: {reference: two hashes, Layout::data_key: content hash of
+//                             its data}}
 //   images/<scene hash>.exr   the reference image itself; only for plans that check images and
 //                             times
 //   accuracy.json             {configuration: {device id: {rmse, arithmetic}}}
@@ -200,8 +201,8 @@ struct AcceptRequest {
   std::function<core::Image(const record::Record&)> truth;
   // See GateRequest::data_hash.
   std::function<std::string(const record::Record&)> data_hash = {};
-  // Returns the limit of a record's scene, or nullptr if the scene has none. If the function is
-  // empty, no errors are stored.
+  // Returns the limit image of a record's scene, or nullptr if the scene has none. If the function
+  // is empty, no errors are stored.
   std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
   // Used to score every record of the run. nullopt: no scores are stored.
   std::optional<StressTruths> stress = {};
@@ -217,8 +218,7 @@ struct AcceptRequest {
 //     nothing, a run whose data have changed since the measurement, and a run that lacks stored
 //     configurations (unless `drop` or `only` is set).
 //   - Changes everything or nothing: writes a new folder next to the old folder, and replaces the
-//   old
-//     folder at the end. Throws IoError if another accept runs at the same time.
+//     old folder at the end. Throws IoError if another accept runs at the same time.
 [[nodiscard]] std::vector<std::string> accept(const record::Store& store, const std::string& run,
                                               const std::filesystem::path& root,
                                               const AcceptRequest& request);

@@ -23,16 +23,17 @@ struct CostTolerance {
 // and warm caches (docs/cost.md).
 //   - Device code: the counts were identical in all 238 configurations. However, if atomics
 //     determine the order of the work (`tiles`), a list may be traversed in a different order.
-//   - All drivers: a driver looks up its allocations. The number of steps depends on their
-//     addresses, which changes the count by at most 0.007 % of the frame.
+//   - All drivers: the number of steps in which a driver looks up its memory allocations depends on
+//     their addresses. This changes the count by at most 0.007 % of the frame.
 //   - PoCL: its threads wait for each other in steps of 2,000 instructions. That is 0.34 % of a
 //     frame with 0.5 million instructions, and 1.4 % of the smallest frame (`tiles` with eight
 //     spheres).
 //   - lavapipe in Mesa 22.3 compiles code in every frame of shading=gradient and of `tiles` with
 //     occlusion culling (8 to 14 million instructions), because it compiles the values of uniforms
-//     into branches again. LLVM iterates over tables in the order of addresses, so the driver's
-//     count differed by 0.16 to 0.55 % between two runs. In frames in which nothing is compiled,
-//     the driver executes only a hundredth of that, so `own` adds next to nothing.
+//     into the code and therefore has to compile again. LLVM iterates over tables in the order of
+//     addresses, so the driver's count differed by 0.16 to 0.55 % between two runs. In frames in
+//     which nothing is compiled, the driver executes only a hundredth of that number of
+//     instructions, so `own` adds next to nothing.
 //   - All drivers: the count depends on what the process drew before. The difference is 260 to
 //     1,410 instructions on OpenGL, and 4,800 instructions for `tiles` on lavapipe (1.8 % of the
 //     driver's count). This must be tolerated, because a change to one technique must not affect

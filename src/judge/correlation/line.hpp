@@ -23,7 +23,7 @@ struct LineModel {
   // The scatter about a line is assumed to be at least this share of the cost, because costs are
   // not reproducible more exactly than that.
   static constexpr double least_scale = 5e-4;
-  // Conditions under which a level or a configuration is reported.
+  // Conditions under which a factor level or a configuration is reported.
   // The expected share of false findings (Benjamini and Hochberg). It applies to levels and to
   // configurations separately, so the share is at most 1 % for both together.
   static constexpr double share_of_false = 0.005;

@@ -1,7 +1,8 @@
 #pragma once
-// Compares two accepted devices A and B. Their stored residual is r0 = ln B0 − ln A0. If the
-// residual r of the current run differs from r0 by more than the counts of both devices vary, the
-// cost of A or B has changed: r − r0 is the change of B minus the change of A.
+// Compares two accepted devices A and B. Let A0 and B0 be their stored costs for a configuration,
+// and r0 = ln B0 − ln A0 their stored residual. If the residual r of the current run differs from
+// r0 by more than the counts of both devices vary between measurements, the cost of A or B has
+// changed: r − r0 is the change of ln B minus the change of ln A.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,7 +1,6 @@
 // Compares the statistics that GPU compilers report with the stored statistics of the same driver
-// version.
-// The values must be equal on any machine, because the output of these compilers does not depend on
-// the machine on which they run.
+// version. The values must be equal on any machine, because the output of these compilers does not
+// depend on the machine on which they run.
 
 #include <fmt/format.h>
 

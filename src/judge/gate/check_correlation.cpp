@@ -21,6 +21,9 @@ Finding about_device(const DeviceCost& device, Verdict verdict, Observation what
 
 // --- Accepted devices: their residuals are compared with the stored residuals --------------------
 
+// The residual of two devices for a configuration is the logarithm of the ratio of their costs
+// (judge/correlation/residuals.hpp).
+
 // The configurations of one device that were also measured on at least one other device, and how
 // much the cost of each configuration changed.
 struct Moved {

@@ -73,8 +73,8 @@ struct GateRequest {
   // Returns the reference image of a record's scene, and the error bound for the record's rendering
   // path. The suite computes both, and the caller caches them.
   FindTruth truth;
-  // Returns the limit of a record's scene, or nullptr if the scene has none. The limit must live as
-  // long as the request.
+  // Returns the limit image of a record's scene, which shows the exact ray integral, or nullptr if
+  // the scene has none. The limit image must live as long as the request.
   std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
   // Returns the expectations that a record must meet in addition to matching its reference image.
   // If the function is empty, there are none.
@@ -82,8 +82,8 @@ struct GateRequest {
   FindOpenCounts open_counts = {};  // called only if counters differ
   std::string today;                // ISO date, for the expiry of waivers
   // If true, a device that has only advisories and skips gets a finding that it could not be
-  // judged. If false, it gets no such finding. This is for CTest tests of a single check, which
-  // count as skipped instead.
+  // judged. Failed device enumerations and missing devices are reported, too. CTest tests of a
+  // single check set this to false, because a test without a decision counts as skipped instead.
   bool decides_each_device = true;
   // If true, a configuration is a regression if the whole 95 % confidence interval of its slowdown
   // lies above 2 %. If false, times do not affect the verdict.

@@ -50,7 +50,8 @@ struct RunView {
 // Sorts by verdict (the worst first), then by device, then by the size of the change.
 void sort_findings(std::vector<Finding>& findings);
 
-// (device, configuration) → the error in its image. The time of such a record is meaningless.
+// (device, configuration) → the error in its image. The time of a record with a wrong image is
+// meaningless.
 using WrongImages = std::map<std::pair<std::string, std::string>, Observation>;
 
 struct ImageFindings {

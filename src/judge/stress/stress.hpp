@@ -28,7 +28,7 @@ struct StressTruths {
 struct StressScore {
   bool drawn = false;   // a finite image was drawn without a crash, a hang or an error
   bool right = false;   // the image is within its bound, and all expectations of the case hold
-  bool agreed = false;  // no differing image of another device is closer to the reference image
+  bool agreed = false;  // every differing image of another device is farther from the reference
   std::vector<Observation> lost = {};  // the reasons for the missing points
 
   [[nodiscard]] int points() const {
