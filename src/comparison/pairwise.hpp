@@ -79,9 +79,10 @@ struct Look {
 };
 [[nodiscard]] Look look_at(std::span<const double> differences, const SequentialDesign& design);
 
-// A configuration that seemed slower or faster. The blocks of one process run scatter less than
-// different process runs do, because memory layout and thread placement differ between process
-// runs. Therefore the result of one process run is accepted only if fresh process runs confirm it.
+// A configuration that seemed slower or faster. The blocks of one process run (the lifetime of one
+// worker process) scatter less than different process runs do, because memory layout and thread
+// placement differ between process runs. Therefore the result of one process run is accepted only
+// if fresh process runs confirm it.
 struct Suspect {
   std::vector<double> process_runs;  // the estimated shift of each fresh process run
   bool slower = true;                // result of the first process run; false: faster

@@ -8,7 +8,7 @@
 
 namespace triptych::comparison {
 
-// Sets the verdict on the time of each configuration, except where a comparison of times would be
+// Sets the verdict on the time of each configuration, unless a comparison of its times would be
 // meaningless. `since` measures from the start of the comparison, because the budget includes the
 // deterministic measurements. Throws the same exceptions as measure::Interleaved.
 void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,

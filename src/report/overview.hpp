@@ -31,7 +31,7 @@ struct Cause {
 struct Overview {
   core::ExitCode code = core::ExitCode::cannot_judge;
   std::size_t devices = 0;
-  // Whether only a part of some plan was measured: a shard, or some levels (--set).
+  // Whether options such as --set, --shard or --filter selected only a part of some plan.
   bool part = false;
   std::vector<KindRow> rows;
   std::vector<Cause> open;   // findings that need attention, the worst first

@@ -135,7 +135,8 @@ class Screen {
     if (shown > 0) add("");
   }
 
-  // Adds a line for each waived cause, because readers must know which failures a pass excuses.
+  // Adds a line for each waived cause (a known failure that is excused until a given date), because
+  // readers must know which failures a pass excuses.
   void waived(const Overview& all) {
     std::size_t shown = 0;
     for (const Cause& cause : all.aside) {
