@@ -1,7 +1,7 @@
 #pragma once
 // Evaluates run time against error. The error of a configuration is the deviation of its image from
-// the limit image of the scene. The functions in this file compute orders of convergence and Pareto
-// fronts from plain numbers, which accuracy/cases.hpp collects.
+// the limit image of the scene, which is the image for step → 0. The functions in this file compute
+// orders of convergence and Pareto fronts from plain numbers, which accuracy/cases.hpp collects.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ struct AccuracyCase {
   std::optional<std::uint64_t> fetched;       // bytes per frame loaded into a simulated cache
   std::optional<std::uint64_t> memory;        // bytes allocated on the device, if reported
   std::optional<double> joules;               // energy per frame, if any meter reported it
-  double rmse = 0;                            // root mean square deviation from the limit
+  double rmse = 0;                            // root mean square deviation from the limit image
   double largest = 0;
   double error_99 = 0;  // 99th percentile, over the pixels, of the largest channel error
   // rmse has two components. `lattice` is the difference between the limit image and the reference
@@ -120,8 +120,8 @@ struct Switched {
 // one for every factor, because plans do not contain all combinations.
 [[nodiscard]] std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases);
 // Like switched_alone(), but for a single factor that changes the image, so that `cases` and
-// `others` have different limits. Returns the most accurate of `cases` that has a counterpart in
-// `others`, and this counterpart, or nullopt if there is none.
+// `others` have different limit images. Returns the most accurate of `cases` that has a counterpart
+// in `others`, and this counterpart, or nullopt if there is none.
 [[nodiscard]] std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
                                                        std::span<const AccuracyCase> others,
                                                        std::string_view factor);

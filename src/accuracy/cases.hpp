@@ -41,7 +41,7 @@ struct PictureError {
 struct AccuracyScene {
   std::string device;
   std::string limit;  // LimitPicture::key; equal for scenes with the same limit image
-  std::string scene;  // "camera=…,data=…": the levels that all its cases have in common
+  std::string scene;  // "camera=…,data=…": the factor levels that all cases share
   std::string data;
   double uncertainty = 0;  // root mean square of the limit's uncertainty
   // Root mean square difference between the limit and the closed-form solution, which the voxel
@@ -61,8 +61,9 @@ struct AccuracyScene {
 [[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
                                          std::string_view clock);
 
-// accuracy_scene() returns a scene without cases. narrow() reduces its levels to those that it has
-// in common with another record. evaluate() computes the results after all cases have been added.
+// accuracy_scene() returns a scene without cases. narrow() removes the factor levels that `record`
+// does not share from AccuracyScene::scene. evaluate() computes the results after all cases have
+// been added.
 [[nodiscard]] AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit);
 void narrow(AccuracyScene& scene, const record::Record& record);
 void evaluate(AccuracyScene& scene);

@@ -12,8 +12,9 @@
 namespace triptych::accuracy {
 
 // How a requested error E is divided: 0.7 E for the step size, and E/4 for early termination (which
-// changes any channel by at most ε if rays end at transmittance ε, so ε = E/4). Merged samples may
-// use E/32, because merging them saves time mainly where it causes almost no error. In the worst
+// changes any channel by at most ε if rays end at transmittance ε, so ε = E/4). Merging
+// neighbouring samples into one may cause an error of E/32; a larger share would save little time,
+// because merging saves time mainly in regions in which it causes almost no error. In the worst
 // case, all errors add up. The remainder is reserved for rounding and storage.
 inline constexpr double step_share = 0.7;
 inline constexpr double termination_share = 0.25;

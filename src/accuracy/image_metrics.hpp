@@ -53,9 +53,9 @@ struct ImageComparison {
 
 // Compares an image with its reference image. `slack` is added to every colour bound. All three
 // images must have the same size, and either all or none of them must be particle images; otherwise
-// size_mismatch is set. If the reference image has ids, every pixel whose id in `bound` is 0 must
-// have the same id, and a depth within the depth bound. Two pixels without a surface have equal
-// depths.
+// size_mismatch is set. If the reference image has ids, every pixel whose id is certain, which
+// means that bound.ids is 0, must have the id of the reference image and a depth within the depth
+// bound. Two pixels without a surface have equal depths.
 [[nodiscard]] ImageComparison compare(const core::Image& image, const core::Image& truth,
                                       const core::Image& bound, double slack = 0);
 

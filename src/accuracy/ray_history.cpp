@@ -26,9 +26,9 @@ struct Light {
   std::array<double, 3> gathered{};
 };
 
-// Returns whether the light after a sample follows from the recorded light before it. In each
-// channel, the tolerance allows for one multiplication and one addition: four roundings of the
-// largest operand.
+// Returns whether the light after a sample follows from the recorded light before it. The tolerance
+// of 4·2⁻²³ of the operands is more than the roundings of one multiplication and one addition and
+// of the recorded floats.
 bool is_composited(const Light& before, const TakenSample& taken) {
   const double weight = before.transmittance * taken.opacity;
   const double slack = 4 * recorded * before.transmittance;
@@ -60,8 +60,8 @@ std::optional<Operation> first_difference(const ExpectedSample& expected, const 
   return std::nullopt;
 }
 
-// Returns the index of the sample, computed from its position along the ray. The midpoint of a
-// whole step is at i + ½; the middle of a partial step is before that.
+// Returns the index i of the sample, computed from its position along the ray. The midpoint of a
+// whole step is i + ½ steps from the entry point; the middle of a partial step is before that.
 std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
   double along = 0;
   double square = 0;

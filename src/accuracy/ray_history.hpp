@@ -20,7 +20,8 @@ struct Allowed {
   double hi = 0;
 };
 
-// A sample that the reference renderer takes: a point for the midpoint rule, or a whole step.
+// A sample that the reference renderer takes: a point for the midpoint rule, or a whole step for
+// preintegration.
 struct ExpectedSample {
   std::int64_t index = 0;
   std::array<Allowed, 3> place{};   // in voxels
@@ -82,7 +83,7 @@ struct RayHistory {
 };
 
 // Compares the samples of a ray. If the device took parts of one step separately, the caller must
-// have joined them.
+// have joined them into one sample.
 [[nodiscard]] RayHistory compare(const ExpectedRay& expected,
                                  const std::vector<TakenSample>& taken);
 

@@ -13,7 +13,7 @@ namespace triptych::accuracy {
 
 enum class Metric : std::uint8_t {
   rms,      // root mean square over all pixels and channels
-  covered,  // root mean square over the non-background pixels of the limit
+  covered,  // root mean square over the non-background pixels of the limit image (step → 0)
   p99_9,    // 99.9th percentile, over the pixels, of the largest channel error
   max       // largest difference in any pixel and channel
 };
@@ -30,10 +30,10 @@ struct RequestedError {
 // Returns the request as "E:METRIC". The metric is always included.
 [[nodiscard]] std::string text_of(const RequestedError& request);
 
-// The errors of an image, measured against its limit.
+// The errors of an image, measured against its limit image.
 struct PictureErrors {
   std::array<double, all_metrics.size()> by_metric{};
-  std::size_t covered = 0;  // number of non-background pixels of the limit
+  std::size_t covered = 0;  // number of non-background pixels of the limit image
 
   [[nodiscard]] double of(Metric metric) const {
     return by_metric[static_cast<std::size_t>(metric)];

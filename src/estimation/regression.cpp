@@ -82,8 +82,8 @@ double rho(double u) {
   return 1 - rest * rest * rest;
 }
 
-// Returns the mean of ρ, which defines the scale: it is 1/2 if `scale` is the scale of the
-// residuals.
+// Returns Σρ/(n − 2) for the n residuals. This mean of ρ defines the scale of the residuals: it is
+// 1/2 if `scale` is that scale.
 double mean_rho(Points residuals, double scale) {
   double sum = 0;
   for (const double residual : residuals) sum += rho(residual / (Bisquare::c_breakdown * scale));
@@ -148,8 +148,10 @@ Candidate refined(Points x, Points y, Line line, double least) {
   return best;
 }
 
-// Stores the best line so far, and replaces it by a line through two points if that line has a
-// smaller scale. A single sum is enough to decide this; the scale need not be computed.
+// Stores the line with the smallest scale so far. try_pair() replaces it by the refined line
+// through two points if the line through the points already has a smaller scale, which is the case
+// if its mean of ρ is below 1/2 at the stored scale. The scale of a line that is rejected is never
+// computed.
 class SmallestScale {
  public:
   SmallestScale(Points x, Points y) : x_(x), y_(y), least_(least_scale(y)) {}

@@ -49,8 +49,8 @@ struct Bisquare {
 // this line, and regains the efficiency of least squares.
 struct RobustLine {
   Line line;
-  // ŝ, an estimate of the standard deviation of normal residuals. The sum of ρ is divided by n − 2,
-  // as in least squares.
+  // ŝ, an estimate of the standard deviation of normal residuals. For n points, the sum of ρ is
+  // divided by n − 2, as the sum of squares is in least squares.
   double scale = 0;
   double intercept_error = 0;  // standard error, see robust_variance
   double slope_error = 0;
@@ -70,10 +70,11 @@ struct RobustLine {
 // otherwise 0.
 [[nodiscard]] double bisquare_weight(double residual, double scale);
 
-// Returns κ = [Σψ²/(n − p)] / [Σψ′/n]² in units of scale². The asymptotic variance of an M-estimate
-// is κ·scale²·(XᵀWX/mean w)⁻¹ (Koller & Stahel 2011). The design matrix contains the weights, so
-// that a distant outlier does not make the estimate look more certain. κ is 1/0.95 for normal
-// residuals and many points.
+// Returns κ = [Σψ²/(n − p)] / [Σψ′/n]² for n residuals and p fitted parameters, where
+// ψ(r) = r·(1 − u²)² for a residual of r·scale with u = r/c_efficient and |u| ≤ 1, otherwise 0. The
+// asymptotic variance of an M-estimate is κ·scale²·(XᵀWX/mean w)⁻¹ (Koller & Stahel 2011), where X
+// is the design matrix and W contains the weights w of the points. Without W, a distant outlier
+// would make the estimate look more certain. κ is 1/0.95 for normal residuals and many points.
 [[nodiscard]] double robust_variance(std::span<const double> residuals, double scale,
                                      std::size_t parameters);
 

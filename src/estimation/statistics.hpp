@@ -25,7 +25,7 @@ inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 // limits the expected fraction of false rejections among all rejections to q.
 [[nodiscard]] std::vector<bool> benjamini_hochberg(std::span<const double> p_values, double q);
 
-// Returns, for each p-value, the smallest q at which this procedure rejects its hypothesis.
+// Returns, for each p-value, the smallest q at which benjamini_hochberg() rejects its hypothesis.
 [[nodiscard]] std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values);
 
 // Estimates of the variances of many groups become more accurate if they are combined. The prior is

@@ -9,8 +9,8 @@ namespace triptych::technique {
 // unknown.
 [[nodiscard]] std::string_view source(std::string_view name);
 
-// Returns the same source code with every line `#include "PATH"` replaced by the source code of
-// PATH, for compilers without #include. For Vulkan, glslang resolves includes itself.
+// Like source(), but replaces every line `#include "PATH"` by the source code of PATH, for
+// compilers without #include. For Vulkan, glslang resolves includes itself.
 [[nodiscard]] std::string whole_source(std::string_view name);
 
 }  // namespace triptych::technique

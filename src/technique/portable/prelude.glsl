@@ -1,5 +1,5 @@
-// Defines the macros that make volume_math.h valid GLSL. The prelude for OpenCL C is in backends/opencl/,
-// and the one for C++ is prelude.hpp.
+// Defines the macros that make volume_math.h and the other .h files of this folder valid GLSL. The prelude for
+// OpenCL C is in backends/opencl/, and the one for C++ is prelude.hpp.
 #ifndef TRI_PRECISION
 #define TRI_PRECISION 32
 #endif

@@ -1,6 +1,7 @@
 #pragma once
-// Defines the macros that make volume_math.h valid C++. The host calls its functions, and tests
-// compare their results with those of the shading languages for the same inputs.
+// Defines the macros that make volume_math.h and the other .h files of this folder valid C++. The
+// host calls their functions, and tests compare the results with those of the shading languages for
+// the same inputs.
 
 #include <bit>
 #include <cmath>

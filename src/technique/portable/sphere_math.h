@@ -60,9 +60,10 @@ TRI_FN float tri_along_axis(float px, float py, float pz, float ex, float ey, fl
 }
 
 // ---- Ray and sphere -------------------------------------------------------------------------------
-// (c, r) is intersected with the ray in direction d = (sx, sy, 1). With q = |d|² and m = c × d, the distance between
-// the ray and the centre is |m|/√q. The cross product preserves the precision that b² − |c|² + r² would lose, because
-// the terms of m are no larger than distances from the centre of the image.
+// A sphere with centre c and radius r is intersected with the ray in direction d = (sx, sy, 1). With q = |d|² and
+// m = c × d, the distance between the ray and the centre is |m|/√q. The usual formula b² − |c|² + r² with b = c·d/|d|
+// would lose precision for distant spheres, because b² and |c|² are much larger than their difference. The terms of m
+// are smaller: they grow only with the distances of the centre and the ray from the view axis.
 
 TRI_FN float tri_ray_square(float sx, float sy) {
   TRI_PRECISE float q = sx * sx + sy * sy + 1.0f;
@@ -99,19 +100,19 @@ TRI_FN float tri_sphere_cosine(float r, float sx, float sy, float discriminant) 
   return cosine < 1.0f ? cosine : 1.0f;
 }
 
-// Returns the reversed depth near/Z, or 1 for everything nearer than `near`.
+// Returns the reversed depth near/distance, or 1 for everything nearer than `near`.
 TRI_FN float tri_depth(float near, float distance) {
   TRI_PRECISE float depth = near / distance;
   return depth < 1.0f ? depth : 1.0f;
 }
 
 // ---- Where a sphere lies on the image plane -------------------------------------------------------
-// Returns the exact bounds (low, high) of a sphere along one axis of the image plane (Mara and McGuire 2013). The
-// silhouette is between the two tangents in the plane of that axis and the view axis. Their angles are φ ± β with
-// φ = atan2(a, z) and sin β = r/√(a² + z²). The part within (−90°, 90°) is in front of the eye. A bound of ±3e38
-// means that the sphere is unbounded in this direction, and low > high means that no part of it is in front of the
-// eye. The arithmetic is `precise`, so that the kernel that counts tile entries and the kernel that writes them
-// compute the same bounds.
+// Returns the exact bounds (low, high) of a sphere along one axis of the image plane (Mara and McGuire 2013). `a` is
+// the coordinate of the sphere's centre along that axis. The silhouette is between the two tangents in the plane of
+// that axis and the view axis. Their angles are φ ± β with φ = atan2(a, z) and sin β = r/√(a² + z²). The part within
+// (−90°, 90°) is in front of the eye. A bound of ±3e38 means that the sphere is unbounded in this direction, and low >
+// high means that no part of it is in front of the eye. The arithmetic is `precise`, so that the kernel that counts
+// tile entries and the kernel that writes them compute the same bounds.
 TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   const float huge = 3.0e38f;
   float side = a < 0.0f ? 0.0f - a : a;  // by symmetry, a ≥ 0 may be assumed for the centre of the sphere

@@ -9,11 +9,12 @@
 // because ∫Pn(y)·e^(−Dy) dy = (−1)ⁿ·e^(−z)·i_n(z), where i_n are the modified spherical Bessel functions.
 //
 // With three coefficients, the light of a piece of optical depth D has an error of R·D⁴/635, where R is the range
-// of the colour. This is accurate enough for a depth of up to 1, but not for much larger depths. If the whole cells
-// of a step are together deeper than TRI_DEEPEST_CHUNK (in powers of two), they are therefore processed from front
-// to back, in chunks that do not exceed this depth. A single cell may be deeper, because colours are linear along
-// it. Once less than TRI_LEAST_LEFT of the step's light is left, all remaining cells form one chunk. This code
-// exists only in single precision, because its tables contain floats.
+// of the colour. This is accurate enough for a depth of up to 1, but not for much larger depths. If the total depth
+// of the whole cells of a step exceeds TRI_DEEPEST_CHUNK, they are therefore processed from front to back, in chunks
+// that do not exceed this depth. TRI_DEEPEST_CHUNK is a depth in powers of two: a depth d transmits 2^−d of the light.
+// A single cell may be deeper, because colours are linear along it. Once the processed chunks of a step transmit no
+// more than TRI_LEAST_LEFT, all remaining cells form one chunk. This code exists only in single precision, because its
+// tables contain floats.
 #if TRI_PRECISION == 32
 
 #define TRI_DEEPEST_CHUNK 0.5f

@@ -28,8 +28,9 @@ enum class BrickKind : std::int32_t {
 //
 // Derivation. Let a ray cross merged bricks. For each crossing, l is its length, A' is its opacity,
 // and T' is the transmittance in front of it. a ≤ b are the smallest and the largest extinction per
-// voxel in the brick, and w is the range of its colours. R is the range of all possible colours. By
-// the identity in reference/composite.hpp, one crossing changes the image by at most
+// voxel in the brick, and w is the range of its colours. R is the range of all possible colours,
+// and ΔA is the change of A' that is caused by merging. By the identity in reference/composite.hpp,
+// one crossing changes the image by at most
 //   T'·(R·|ΔA| + w·A'),   |ΔA| ≤ e^(−al) − e^(−bl) ≤ (b − a)·l·e^(−al).
 // Two facts bound the sum along the ray: Σ T'·A' ≤ 1, and Σ l ≤ L, the longest chord of the volume.
 // Therefore one half of the permitted change, K = adapt/2, is distributed in proportion to opacity,

@@ -1,5 +1,6 @@
 #pragma once
-// Computes how far a ray may leap from a brick without reading the map in between.
+// Computes how far a ray may leap from a brick without reading the brick map (brick_map.hpp) in
+// between.
 
 #include <array>
 #include <cstdint>

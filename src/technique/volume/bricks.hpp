@@ -1,6 +1,6 @@
 #pragma once
-// Divides volumes into bricks, which are used to skip empty space. Bricks are prepared outside all
-// timed code.
+// Divides volumes into bricks, which are cubes of voxels that are used to skip empty space. Bricks
+// are prepared outside all timed code.
 
 #include <array>
 #include <cstdint>

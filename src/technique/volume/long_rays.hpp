@@ -11,10 +11,10 @@ namespace triptych::technique {
 
 // cell_passes() returns the number of loop iterations that a ray may need with quadrature=cells. It
 // must not exceed most_cell_passes. A ray crosses at most as many voxel planes as there are along
-// all three axes together. It needs one iteration for each cell and one for each piece of a cell;
-// each kink or extremum adds a piece. The limit is half the number of iterations that drivers
-// allow, because some cells have more pieces. `more` is the number of loop iterations within a
-// piece.
+// all three axes together. It needs one iteration for each cell and one for each piece of a cell.
+// Each kink of the transfer function and each extremum of the values along the ray adds a piece.
+// The number includes only one such piece per cell, so the limit is half the number of iterations
+// that drivers allow. `more` is the number of loop iterations within a piece.
 inline constexpr std::int64_t most_cell_passes = 32'768;
 [[nodiscard]] inline std::int64_t cell_passes(const scene::VolumeScene& scene, int more) {
   const auto [nx, ny, nz] = scene.grid->size;

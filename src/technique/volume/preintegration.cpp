@@ -15,8 +15,9 @@ constexpr std::size_t entries = 256;
 constexpr double most_extinction = 8192;  // extinction per voxel length for an entry of opacity 1
 
 // The optical depth of a path and the moments of its colours. x is the optical depth from the
-// beginning of the path, per cell and in natural units. The members are ∫dx and, for each colour
-// channel c, ∫c dx, ∫c·x dx and ∫c·x² dx.
+// beginning of the path, in natural units (a depth x transmits e^−x of the light) and for cells
+// that are one voxel long. The members are ∫dx and, for each colour channel c, ∫c dx, ∫c·x dx and
+// ∫c·x² dx.
 struct Moments {
   double depth = 0;
   std::array<double, 3> c0{};

@@ -78,7 +78,7 @@ struct BasicRaycastParameters {
   // The normalised value is stored·x + y. z is ray_plane. w is needed only with doubles: the factor
   // that converts a texel to the stored integer, or 0 if the texel already is that integer.
   Four value_map;
-  Four shading;                             // ambient, diffuse, specular; w: parts per cell
+  Four shading;                             // ambient, diffuse, specular; w: scene.parts_of_cell()
   Four background;                          // premultiplied RGBA
   std::array<std::int32_t, 4> volume_size;  // xyz: size in voxels; w: log2 of the specular exponent
   // Bricks per axis. w is the edge of a brick in voxels; 0 means no skipping.
@@ -98,7 +98,8 @@ static_assert(offsetof(BasicRaycastParameters<double>, volume_size) == std::size
 // whole voxels, while a point on the plane is as accurate as the box itself.
 [[nodiscard]] double ray_plane(const scene::VolumeScene& scene);
 // If the distance of the eye exceeds this number of diagonals of the box, rays begin on the plane
-// that ray_plane() returns. For a closer eye, the error is less than 1e-4 of the box's size.
+// that ray_plane() returns. For a closer eye, the error of positions is less than 1e-4 of the box's
+// size.
 inline constexpr double far_in_diagonals = 16;
 
 // Returns the bytes of the parameters, in the precision of the options. A u8 or u16 voxel reaches

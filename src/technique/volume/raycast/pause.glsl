@@ -5,7 +5,8 @@ struct Pause {
   real4 light;   // premultiplied colour, transmittance
   ivec4 where;   // the brick or the cell where the ray continues; w: 1 if the current run is to be merged
   ivec4 run;     // the next sample, the end of its run, and 1 if the ray has been terminated early
-  // only for quadrature=cells: where the ray continues, where the run of visible bricks ends, and where the ray ends
+  // Only for quadrature=cells: the positions on the ray, in steps, at which it continues, at which the visible bricks
+  // end, and at which the ray ends.
   vec4 times;
   uvec4 counts;  // samples, samples_nonzero, bricks_visited, bricks_skipped
 };

@@ -10,8 +10,8 @@ struct Cut {
 #if TRI_PRECISION == 32
 
 // Composites a piece of the step behind `gathered`, which contains premultiplied colour and opacity. `depth` is the
-// piece's optical depth in powers of two. a0, a1 and a2 are the Legendre coefficients of its colour as a function
-// of the share of this depth that the light has passed.
+// piece's optical depth in powers of two, so the piece transmits 2^−depth of the light. a0, a1 and a2 are the Legendre
+// coefficients of its colour as a function of the share of this depth that the light has passed.
 void add_piece(inout vec4 gathered, float depth, vec3 a0, vec3 a1, vec3 a2) {
   float opacity = tri_1m_exp2(-depth);
   float z = 0.3465735903 * depth;
@@ -63,7 +63,7 @@ int end_of_chunk(int first, int last, float per_cell) {
   float share = TRI_DEEPEST_CHUNK / depth_of_cells(first, last, per_cell);
   int taken = max(1, int(share * float(abs(last - first))));
 #if TRI_LONG_RAYS
-  for (int i = 0; i < 8; ++i) {  // constant length, so it is unrolled and does not count towards the limit
+  for (int i = 0; i < 8; ++i) {  // constant length, so it is unrolled and adds no loop iterations
     if (are_too_deep(first, first + direction * taken, per_cell)) taken /= 2;
   }
 #else

@@ -48,7 +48,7 @@ struct March {
 };
 
 #if TRI_PRECISION == 32
-// Takes the next step, or the next part of it. The field is linear along the step.
+// Takes the next step, or the next part of it. The field is assumed to be linear along the step.
 void advance_segment(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels) {
   real end = min(real(m.i + 1), ray.steps);
   real back = field(grid, ray.p0 + end * ray.g);

@@ -84,7 +84,7 @@ vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
 }
 
 // Returns a row of technique::kink_table: the smallest kink ≥ i, the largest kink < i, and the first visible
-// entry ≥ i.
+// entry ≥ i. A kink is an entry of the transfer function at which its slope changes.
 vec4 kink_row(float i) { return quadrature_entry(int(clamp(i, 0.0, 256.0))); }
 
 // Returns whether any value in the cell has opacity. The test uses the range between the smallest and the largest
@@ -203,8 +203,8 @@ void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float 
 }
 
 // The content of the brick map for a cell: whether its brick is visible, and the planes through which the ray leaves
-// the region in which all bricks are of the same kind. Planes at the faces of the volume include the half cells
-// there.
+// the cube of bricks that are all visible or all invisible. At the faces of the volume, the cube is extended to
+// include the half cells there.
 struct Around {
   bool visible;
   ivec3 planes;

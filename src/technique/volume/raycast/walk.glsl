@@ -55,9 +55,9 @@ int samples_before(Walk walk, int limit) {
   return walk.outside || !(walk.leave < real(limit)) ? limit : clamp(int(ceil(walk.leave - 0.5)), 0, limit);
 }
 
-// Narrows [begin, end) to the next run of visible bricks of one kind at or after `begin`. The result is empty at
-// the end of the ray. `merged` is set if the run is to be taken as one sample. Each brick of kind 2
-// (technique::BrickKind::merged) forms its own run.
+// Narrows the range of samples [begin, end) to its first run of samples in visible bricks of one kind
+// (technique::BrickKind). The result is empty at the end of the ray. `merged` is set if the run is to be taken as one
+// sample. Each brick of kind 2 (BrickKind::merged) forms its own run.
 ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   while (begin < end && !walk.visible) {
     begin = max(begin, samples_before(walk, end));
@@ -75,8 +75,8 @@ ivec2 next_run(inout Walk walk, int begin, int end, out bool merged) {
   return ivec2(begin, stop);
 }
 
-// Leaps over whole cubes of bricks of one kind (technique::Skip::distance). Each leap starts from the exact
-// position of a sample, so errors do not accumulate.
+// Leaps over whole cubes of bricks that are all visible or all invisible (technique::Skip::distance). Each leap
+// starts from the exact position of a sample, so errors do not accumulate.
 struct Leaps {
   real3 p0;    // entry point of the ray, relative to the first voxel's centre, where the first brick begins
   real3 inverse_g;
@@ -96,9 +96,9 @@ Leaps make_leaps(Ray ray) {
   return leaps;
 }
 
-// Whether the brick that contains sample i is visible, and the first sample beyond the cube of bricks of the same
-// kind (technique::brick_reach), but at most `end`. A sample within rounding error of a face may be assigned to
-// either side, as in a walk.
+// Whether the brick that contains sample i is visible, and the first sample beyond the cube of bricks around it that
+// are all visible or all invisible (technique::brick_reach), but at most `end`. A sample within rounding error of a
+// face may be assigned to either side, as in a walk.
 struct Leap {
   bool visible;
   int next;
@@ -146,10 +146,10 @@ ivec2 next_run_by_leaps(Leaps leaps, Ray ray, int begin, int end) {
   return ivec2(begin, stop);
 }
 
-// Returns whether there is anything to skip. With leaps, the reach of a single brick reveals whether all bricks are
-// of the same kind. `nothing` is always 0 but depends on the ray. If the condition depended only on parameters,
-// lavapipe (Mesa 22.3) would compile a separate shader for every submission, with the values of the parameters
-// inlined, which takes up to 1.5 ms.
+// Returns whether there is anything to skip. With leaps, this is not the case if all bricks are visible; the reach
+// of any brick is then the length of the grid's longest edge. `nothing` is always 0 but depends on the ray. If the
+// condition depended only on parameters, lavapipe (Mesa 22.3) would compile a separate shader for every submission,
+// with the values of the parameters inlined, which takes up to 1.5 ms.
 bool skips(Ray ray) {
   int longest = max(u.brick_grid.x, max(u.brick_grid.y, u.brick_grid.z));
   int nothing = min(0, int(ray.steps));
