@@ -1,7 +1,7 @@
-// Each invocation traces a beam of 4×2 pixels through the hierarchy and visits the nearer child of each node first.
-// It tests each sphere whose box the beam crosses, unless every pixel of the beam has already found a surface in
-// front of the box. A block consists of 8×8 beams. Eight consecutive invocations cover a square of 8×8 pixels,
-// because software devices run eight invocations at once.
+// Each invocation traces a beam, the bundle of the rays of 4×2 pixels, through the hierarchy and visits the nearer
+// child of each node first. It tests each sphere whose box the beam crosses, unless every pixel of the beam has already
+// found a surface in front of the box. A block consists of 8×8 beams. Eight consecutive invocations cover a square of
+// 8×8 pixels, because software devices run eight invocations at once.
 //
 // The traversal needs no stack. `trail` has one bit for each level from the current node up to the children of the
 // root. A bit is 1 if the sibling at that level needs no visit, because it has been visited or because the beam
@@ -9,7 +9,7 @@
 // trail for stackless BVH traversal, 2010).
 //
 // Components of TRI_STEP:
-//   x  only every x-th beam is traced
+//   x  stride: only every x-th beam is traced
 //   y  number of blocks per row
 //   z  number of beams
 //   w  flags: 1 resumes traversals that an earlier dispatch did not finish; 2 stores where traversals stop

@@ -13,7 +13,8 @@ namespace triptych::technique {
 // The parameters of all kernels that build or traverse the hierarchy. `step` differs between
 // passes.
 struct HierarchyParameters {
-  std::array<float, 4> origin{};  // lower corner of the curve's grid; w: grid cells per unit length
+  // The lower corner of the Hilbert curve's grid; w: grid cells per unit length.
+  std::array<float, 4> origin{};
   // The numbers of particles, levels, particles per leaf, and leaves with one more particle.
   std::array<std::uint32_t, 4> shape{};
   std::array<std::uint32_t, 4> step{};
@@ -49,9 +50,10 @@ class Hierarchy {
   [[nodiscard]] std::size_t box_words() const noexcept;     // two corners of four words per node
   [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in tree order
   [[nodiscard]] std::size_t order_words() const noexcept;   // their particle indices
-  [[nodiscard]] std::size_t sorted_words() const noexcept;  // two lists of (position, particle)
-  // The number of particles with each of the 256 digits in each run, followed by one total for each
-  // digit.
+  // Two lists of (position on the curve, particle).
+  [[nodiscard]] std::size_t sorted_words() const noexcept;
+  // The number of particles with each of the 256 values of a digit in each run of the radix sort,
+  // followed by one total for each value.
   [[nodiscard]] std::size_t scratch_words() const noexcept;
 
  private:
@@ -67,7 +69,8 @@ struct SortPass {
 // Returns the four passes of the sort. The last pass writes its result to the first list.
 [[nodiscard]] std::array<SortPass, 4> sort_passes(const Hierarchy& hierarchy);
 
-// The beams of the image, each of 4×2 pixels, in blocks of 8×8 beams (bvh.comp.glsl).
+// The beams of the image, in blocks of 8×8 beams (bvh.comp.glsl). A beam is the bundle of the rays
+// of 4×2 pixels.
 struct BeamGrid {
   std::uint32_t columns = 0;  // number of blocks
   std::uint32_t rows = 0;

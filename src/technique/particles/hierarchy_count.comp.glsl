@@ -1,5 +1,6 @@
-// Each invocation processes one run and counts its particles with each digit. TRI_STEP contains the lowest bit
-// of the digit, the index in `sorted` at which the input list begins, and the number of runs.
+// Each invocation processes one run of particles. For each value of the current digit (eight bits of the position on
+// the curve), it counts the particles of the run with this value. TRI_STEP contains the lowest bit of the digit, the
+// index in `sorted` at which the input list begins, and the number of runs.
 layout(local_size_x = 64) in;
 
 void main() {

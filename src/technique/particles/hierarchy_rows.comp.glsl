@@ -1,6 +1,6 @@
-// Each invocation processes one digit. It replaces the counts of the runs by their prefix sums, which are the
-// positions of the runs among all particles with this digit, and stores the total. TRI_STEP is the same as for
-// hierarchy_count.
+// Each invocation processes one value of the digit. It replaces the counts of the runs (hierarchy_count) by their
+// prefix sums, which are the positions of the runs among all particles with this value, and stores the total.
+// TRI_STEP is the same as for hierarchy_count.
 layout(local_size_x = 64) in;
 
 void main() {

@@ -1,4 +1,4 @@
-// Each invocation moves the particles of one run to their positions in the output list. TRI_STEP is the same as for
+// Each invocation copies the particles of one run to their positions in the output list. TRI_STEP is the same as for
 // hierarchy_count.
 layout(local_size_x = 64) in;
 

@@ -1,5 +1,5 @@
-// A single invocation replaces the totals of the digits by the positions at which the particles
-// with each digit begin.
+// A single invocation replaces the total of each value of the digit (hierarchy_rows) by the position at which the
+// particles with this value begin.
 layout(local_size_x = 1) in;
 
 void main() {

@@ -2,11 +2,11 @@
 // traverses the structure with rays and boxes in single precision, and no specification defines how its arithmetic
 // rounds. The box must contain every point that the intersection test for the sphere can report. With u = 2⁻²⁴, it is
 // therefore larger than the sphere by
-//   2⁻¹⁹·(|eye| + |c| + r)  for the rounding of the eye and of the ray's direction (u times the distance in each
-//                           component), for the driver's differences and divisions (a few u more), and for the
-//                           error in the distance of a hit, 24u·(|c| + r). That error is along the view axis, so it is
-//                           multiplied by the ray's length per unit of depth.
-//   1/64 pixel              the margin of sprites, which covers single-precision hits outside the silhouette
+//   2⁻¹⁹·(|eye| + |c| + r)·l  for the rounding of the eye and of the ray's direction (u times the distance in each
+//                             component), for the driver's differences and divisions (a few u more), and for the
+//                             error in the distance of a hit, 24u·(|c| + r). That error is along the view axis,
+//                             so the factor l is needed, an upper bound on the ray's length per unit of depth.
+//   1/64 pixel                the margin of sprites, which covers single-precision hits outside the silhouette
 void padded_box(vec4 sphere, out vec3 lo, out vec3 hi) {
   sphere_box(sphere, lo, hi);
   vec3 to = sphere.xyz - u.eye.xyz;

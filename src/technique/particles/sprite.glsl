@@ -85,7 +85,7 @@ Frame sprite_frame(vec4 sphere) {
   vec3 right = normalize(cross(v, reference));
   float plane = tri_sprite_plane(d, sphere.w);
   float radius = tri_sprite_radius(d, sphere.w, plane, max(u.plane.z, u.plane.w), u.eye_rest.w);
-  if (TRI_SPRITE_GROWTH > 0.0) {  // a pixel is at least as large at depth sphere.z as on the plane
+  if (TRI_SPRITE_GROWTH > 0.0) {  // a pixel is at least as large at depth sphere.z as on the sprite
     radius += TRI_SPRITE_GROWTH * max(u.plane.z, u.plane.w) * max(sphere.z, 0.0);
   }
   return Frame(v * plane, radius * right, radius * cross(right, v), tri_surrounds(d2, sphere.w));

@@ -13,18 +13,20 @@
 namespace triptych::technique {
 
 inline constexpr int tile_edge = 16;  // TRI_TILE
-inline constexpr int small_edge = 6;  // TRI_SMALL_EDGE
+// TRI_SMALL_EDGE. A sphere is small if both sides of its pixel rectangle have at most this length
+// in pixels; otherwise it is large.
+inline constexpr int small_edge = 6;
 
 // A range of cells whose spheres are binned together before the tiles are resolved.
 struct TileRound {
   std::uint32_t first = 0;
   std::uint32_t cells = 0;
-  std::uint64_t entries = 0;  // upper bound on the number of entries; 0 without large spheres
+  std::uint64_t entries = 0;  // upper bound on the number of (tile, large sphere) pairs
 };
 
 struct TileRounds {
   std::vector<TileRound> rounds;  // the rounds together contain all cells, front to back
-  std::uint64_t entries = 0;      // largest number of (tile, large sphere) pairs in a round
+  std::uint64_t entries = 0;      // the largest TileRound::entries
   bool small = false;             // whether there may be small spheres
   bool at_once = false;           // one round only, with little overdraw; drawn by the last pass
   std::uint64_t passes = 0;  // maximum loop iterations per invocation of tiles_bin or tiles_fill
@@ -47,7 +49,8 @@ struct TileRounds {
 }
 
 // The maximum number of large spheres in a round, unless a single cell has more. It keeps the loop
-// over a tile's entries below Mesa's limit on loop iterations (docs/accuracy.md).
+// over a tile's entries (the large spheres that reach it) below Mesa's limit on loop iterations
+// (docs/accuracy.md).
 inline constexpr std::uint64_t most_large_spheres = 32000;
 
 // Divides the cells into rounds. Early rounds hide spheres of later rounds, but each round costs a

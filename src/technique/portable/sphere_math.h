@@ -110,9 +110,9 @@ TRI_FN float tri_depth(float near, float distance) {
 // Returns the exact bounds (low, high) of a sphere along one axis of the image plane (Mara and McGuire 2013). `a` is
 // the coordinate of the sphere's centre along that axis. The silhouette is between the two tangents in the plane of
 // that axis and the view axis. Their angles are φ ± β with φ = atan2(a, z) and sin β = r/√(a² + z²). The part within
-// (−90°, 90°) is in front of the eye. A bound of ±3e38 means that the sphere is unbounded in this direction, and low >
-// high means that no part of it is in front of the eye. The arithmetic is `precise`, so that the kernel that counts
-// tile entries and the kernel that writes them compute the same bounds.
+// (−90°, 90°) is in front of the eye. A bound of ±3e38 means that the sphere is unbounded in this direction, and
+// low > high means that no part of it is in front of the eye. The arithmetic is `precise`, so that the kernel that
+// counts tile entries and the kernel that writes them compute the same bounds.
 TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
   const float huge = 3.0e38f;
   float side = a < 0.0f ? 0.0f - a : a;  // by symmetry, a ≥ 0 may be assumed for the centre of the sphere
