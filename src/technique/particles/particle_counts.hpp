@@ -54,7 +54,7 @@ struct CountedFrame {
 //   fragments             pixel centres that the sprites cover, before any depth test
 //   fragments_discarded   fragments whose ray hits no point of the sphere in front of the eye
 //   fragments_kept        fragments that were not discarded
-//   bin_entries           (tile, particle) pairs, for tiles and for OpenCL's rasterizer
+//   bin_entries           (tile, particle) pairs, for tiles and for the rasterizer in OpenCL
 //   nodes_visited         for rays: inner nodes of the hierarchy whose children were tested
 //   boxes_tested          for rays: tests of the boxes of nodes and of single spheres
 //   intersections_tested  for rays: tests of a pixel's ray with a sphere

@@ -5,9 +5,9 @@
 //
 // The records are stored in the counter buffer, after the counters of all pixels. For the recorded
 // pixel, the eighth word of its counters, which is otherwise unused, contains the index of the word
-// at which this data begins. For all other pixels, the eighth word keeps its initial value. The
-// data begins with a word for the capacity in records and a word for the number of records that the
-// ray would have written without this limit. The records follow.
+// at which the trace begins. For all other pixels, the eighth word keeps its initial value. The
+// trace begins with a word for the capacity in records and a word for the number of records that
+// the ray would have written without this limit. The records follow.
 // technique/volume/raycast/trace.glsl and backends/opencl/trace.cl write the records.
 
 #include <array>

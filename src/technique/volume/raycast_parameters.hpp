@@ -46,7 +46,7 @@ enum class Fault : std::uint8_t {
 struct RaycastOptions {
   Sampler sampler = Sampler::manual;
   Skip skip = Skip::distance;
-  double ert = 1.0 / 512;  // transmittance below which rays end; 0: rays never end early
+  double ert = 1.0 / 512;  // early ray termination below this transmittance; 0: never
   double adapt = 0;        // allowed error due to merging samples within bricks (brick_kinds.hpp)
   Precision precision = Precision::fp32;
   // The number of bytes of device memory for voxels. A larger volume is drawn in parts (parts.hpp).
@@ -72,7 +72,7 @@ struct BasicRaycastParameters {
   using Four = std::array<Real, 4>;
   Four eye;              // xyz: eye/spacing; w: h, the step in world units
   Four ray_centre;       // xyz: forward, world; w: h / smallest spacing, the step in voxels
-  Four ray_right;        // xyz: right · aspect · tan(fov/2); w: ERT ε
+  Four ray_right;        // xyz: right · aspect · tan(fov/2); w: RaycastOptions::ert
   Four ray_up;           // xyz: up · tan(fov/2); w: gradient floor
   Four inverse_spacing;  // xyz: 1/spacing; w: smallest spacing
   // The normalised value is stored·x + y. z is ray_plane. w is needed only with doubles: the factor

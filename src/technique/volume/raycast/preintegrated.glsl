@@ -1,5 +1,6 @@
 // quadrature=preintegrated, in which the value is linear along each step, from front to back
-// (portable/volume_preintegration.h, technique::preintegrated_pairs).
+// (portable/volume_preintegration.h, technique::preintegrated_pairs). A cell is the interval between two adjacent
+// entries of the transfer function.
 //
 // The state of a step that is processed in several parts, because its whole cells are too deep for one look-up.
 struct Cut {
