@@ -62,7 +62,7 @@ endfunction()
 # All time limits of tests are multiplied by this factor. It is larger than 1 under an emulator, for example
 # (cmake/arm64.cmake).
 set(TRIPTYCH_PATIENCE 1 CACHE STRING "Factor by which the time limits of tests are multiplied")
-# triptych_patience(SECONDS OUT) sets OUT to SECONDS multiplied by this factor.
+# triptych_patience(SECONDS OUT) sets OUT to SECONDS multiplied by TRIPTYCH_PATIENCE.
 function(triptych_patience seconds out)
   math(EXPR patience "${seconds} * ${TRIPTYCH_PATIENCE}")
   set(${out} ${patience} PARENT_SCOPE)

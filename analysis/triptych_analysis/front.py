@@ -27,8 +27,8 @@ def points(folder, against="limit", metric="rms", cost="median_ns"):
     joined = records.merge(chosen, on="record")
     joined = joined.rename(columns={cost: "cost"})[["device", "scene", "name", "error", "cost"]]
     joined = joined[(joined["cost"] > 0) & (joined["error"] > 0)].reset_index(drop=True)
-    # The step, the quadrature and similar factors change an image but not its limit, so they are removed from the name of the
-    # scene.
+    # The step, the quadrature and similar factors change an image, but not the limit image (the exact solution,
+    # relative to which errors are measured). Therefore these factors are removed from the name of the scene.
     joined["scene"] = joined["scene"].map(_subject)
     joined["front"] = False
     for _, rows in joined.groupby(["device", "scene"], sort=True):

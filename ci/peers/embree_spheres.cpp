@@ -1,6 +1,8 @@
 // The program that embree_spheres compiles and runs. It draws spheres with Embree
 // (RTC_GEOMETRY_TYPE_SPHERE_POINT), with packets of eight coherent rays on all cores.
 //   embree_spheres SCENE COUNT EDGE eye(3) forward(3) up(3) tangent_of_half
+// EDGE is the edge length of the image in pixels. Each (3) stands for three coordinates, and the
+// last argument is the tangent of half the field of view.
 // Prints Embree's version and the build time in ms. Then reads commands, one per line. For each
 // command it draws a frame and prints the time in nanoseconds. "frame" does nothing else; "image
 // FILE" also writes premultiplied RGBA floats to FILE, top row first.

@@ -1,5 +1,6 @@
-// Tests that rooms include only headers from lower floors, that backends and suites do not depend
-// on each other, and that only the backend for an API includes that API's headers.
+// Tests that rooms (libraries) include only headers from lower floors (layers, see
+// cmake/room.cmake), that backends and suites do not depend on each other, and that only the
+// backend for an API includes that API's headers.
 
 #include <gtest/gtest.h>
 

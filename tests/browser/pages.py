@@ -25,8 +25,8 @@ ert: [0]
 camera: ['orbit_y:1/9']
 viewport: [24]
 """
-# Small scenes from the stress and accuracy plans of both suites. One data file is missing on purpose: TRIPTYCH_DATA is
-# empty.
+# Plans from which small scenes are taken: the stress plans of both suites and the accuracy plan for volumes. One data
+# file is missing on purpose, because TRIPTYCH_DATA is empty.
 HOSTILE = ["volume/stress", "particles/stress", "volume/accuracy"]
 PLANS = {
     "volume/quick": ["technique=raycast,raycast_fragment", "data=generate:marschner_lobb:32", "viewport=64",

@@ -15,8 +15,8 @@
 namespace triptych::command_line {
 namespace {
 
-// Returns a script for devices that draw the limit image of each of these scenes. If there are
-// several scenes, they differ in their data.
+// Returns a script for devices that draw the limit image, to which images converge for small steps,
+// of the scenes with these data.
 std::string drawing_the_limit(const Program& program, const std::vector<std::string>& data,
                               const std::string& viewport) {
   const auto suite = volume_suite::make_suite({});

@@ -51,8 +51,8 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 // The tables alone are enough to plot run time against error. A correct image has no error with
-// respect to its reference image, but has an error with respect to the limit image, which decreases
-// with the step size.
+// respect to its reference image, which uses the same step size. With respect to the limit image,
+// to which images converge for small steps, it has an error that decreases with the step size.
 TEST_F(Export, ContainsEveryErrorOfEveryImage) {
   const std::string right = R"({"images": {"*": ")" + right_picture(program).string() + R"("}})";
   ASSERT_EQ(program

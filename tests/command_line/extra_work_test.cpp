@@ -16,8 +16,8 @@ namespace triptych::command_line {
 namespace {
 
 // In each plan, one factor has two levels whose work differs by less than 0.01 %. Therefore a
-// single worker can count the frames with and without the injected work. This saves time, because
-// starting a worker under the emulator takes longer than counting all its frames.
+// single worker process can count the frames with and without the injected work. This saves time,
+// because starting a worker process under the emulator takes longer than counting all its frames.
 struct Counted {
   const char* plan;
   const char* slower;  // the level for which work is injected

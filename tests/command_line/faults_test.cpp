@@ -1,4 +1,4 @@
-// Tests workers that crash or hang, and the records that remain.
+// Tests worker processes that crash or hang, and the records that remain.
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ TEST(Faults, ALostDeviceCostsOneConfiguration) {
 
 TEST(Faults, AKilledRunIsResumed) {
   const Program program;
-  // The first configuration is stored, and the second one hangs until the supervisor is killed.
+  // The first configuration is stored. The second one hangs until the main process is killed.
   const Result killed =
       program.run(three + " --limit 60 --inject 'hang@*step=0.5*'", "{}", "timeout -s KILL 3");
   EXPECT_NE(killed.code, 0);

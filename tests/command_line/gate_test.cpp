@@ -59,7 +59,8 @@ TEST(Gate, CannotJudgeWithoutBaselines) {
       << judged.output;
 }
 
-// If a run did not read statistics, the gate must state this as the reason why it does not pass.
+// If a run did not read pipeline statistics, the gate must state this as the reason why it does not
+// pass.
 TEST(Gate, ACheckWithoutAVerdictIsSkippedInCTest) {
   const Program program;
   std::filesystem::create_directory(program.folder() / "baselines");
@@ -88,7 +89,8 @@ TEST(Gate, APartialRunIsCompletedInItsOwnStore) {
       << refused.output;
 }
 
-// A window or mapping changes the stored voxels of a volume, but not its name.
+// The factors `window` and `mapping` (from values to voxels) change the stored voxels of a volume,
+// but not its name.
 TEST(Gate, WindowsAndMappingsDoNotCountAsChangedData) {
   const Program program;
   program.write("plan", std::string(tiny_plan) +

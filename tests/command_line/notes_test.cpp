@@ -1,5 +1,5 @@
-// Tests that guesses about data are printed once, no matter how many configurations and devices use
-// the data.
+// Tests that guesses about data, such as elements derived from atom names, are printed once, no
+// matter how many configurations and devices use the data.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,8 @@ TEST(Notes, ArePrintedOnce) {
   const Program program;
   program.write("ligand.gro",
                 "made\n    1\n    1LIG     SI    1   0.100   0.100   0.100\n   1.0 1.0 1.0\n");
-  // One device draws in two orders, and the reference image is computed in a second process.
+  // The worker process of the device draws several configurations, and a second process computes
+  // the reference images. Both processes read the file and guess the element.
   const Result result = program.run(
       "gate particles/quick --measure --check image --device null:scripted --set data=ligand.gro "
       "--set technique=point --set viewport=16,32 --store s.sqlite --baselines b 2>&1");

@@ -1,4 +1,5 @@
-// Tests devices that only compile, with RADV if it is installed: a worker, a plan and the gate.
+// Tests devices that only compile, which means that a driver compiles code for a GPU that this
+// machine does not have. Uses RADV if it is installed. Tests a worker process, a plan and the gate.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,7 +21,7 @@ using testing::AllOf;
 using testing::Ge;
 using testing::Le;
 
-// The oldest supported Mesa release already knows this family.
+// The oldest supported Mesa release already knows this GPU family.
 constexpr const char* absent_device = "vulkan:radv-navi21";
 
 class OnlyCompile : public testing::Test {
@@ -163,7 +164,7 @@ TEST_F(OnlyCompile, ARequiredFamilyThatCannotBeUsedIsNotAPass) {
   EXPECT_FALSE(found.front().at("detail").get<std::string>().empty()) << judged.output;
 }
 
-// Without stored code, there is nothing to judge, so nothing is compiled.
+// Without code statistics in the baselines, there is nothing to judge, so nothing is compiled.
 TEST_F(OnlyCompile, NothingIsCompiledWithoutStoredCode) {
   const std::string gate =
       std::string("gate --check code --measure --baselines none --store s.sqlite --device ") +

@@ -1,4 +1,5 @@
-// Tests that a command printed on the last screen reproduces the fault when it is pasted unchanged.
+// Tests that a command printed on the last screen (the summary at the end of a gate) reproduces the
+// fault when it is pasted unchanged.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -1,5 +1,6 @@
 #pragma once
-// Runs triptych with a scripted device, and returns its output.
+// Runs triptych with a scripted device of the null backend, whose times, images and failures are
+// given by a script. Returns the output of triptych.
 
 #include <string>
 

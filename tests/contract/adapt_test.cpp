@@ -1,5 +1,5 @@
-// Tests merging samples within bricks: images stay within the budget, fewer samples are taken, and
-// for V1 each ray takes a single sample.
+// Tests merging samples within bricks (the factor `adapt`): the error stays within the allowed
+// budget, fewer samples are taken, and for V1, a homogeneous box, each ray takes a single sample.
 
 #include <cmath>
 
@@ -17,7 +17,8 @@ technique::RaycastOptions& options_of(measure::Work& work) {
   return std::get<VolumeWork>(work.scene).options;
 }
 
-// Selects skip=bricks, because samples are merged within the bricks of a walk.
+// Selects skip=bricks, with which a ray walks from brick to brick, because samples are merged
+// within the bricks of such a walk.
 measure::Work walking(measure::Work work) {
   options_of(work).skip = technique::Skip::bricks;
   return work;

@@ -1,6 +1,7 @@
-// Tests the quadrature `cells` on real devices. It is exact if the field has no kinks, stays within
-// its bound everywhere, gives bit-identical images for all skip modes, and is closer to the limit
-// than the midpoint rule with an eighth of its step size.
+// Tests the quadrature `cells`, which integrates each voxel cell along the ray, on real devices. It
+// is exact if the field has no kinks, stays within its error bound everywhere, gives bit-identical
+// images for all modes of skipping empty space, and is closer to the limit image (the exact
+// integral) than the midpoint rule with an eighth of its step size.
 
 #include <algorithm>
 #include <cmath>
@@ -110,8 +111,8 @@ TEST(Cells, RealVolumesStayWithinTheBoundAndAreBitIdentical) {
   });
 }
 
-// In V1, the field has a single value, so each cell is a single piece with a constant integrand.
-// Only round-off remains.
+// In V1, a homogeneous box, the field has a single value, so each cell is a single piece with a
+// constant integrand. Only round-off remains.
 TEST(Cells, V1IsExact) {
   on_every_driver([](measure::Device& device) {
     reference::AnalyticOptions options;

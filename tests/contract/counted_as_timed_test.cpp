@@ -72,9 +72,10 @@ scene::Volume walls() {
   return volume;
 }
 
-// A sample on the face between two bricks belongs to the next brick along the ray if rays walk, and
-// to the brick with the higher index if they leap. For rays in the negative direction of an axis,
-// these are two different bricks.
+// A sample on the face between two bricks belongs to the next brick along the ray if rays walk from
+// brick to brick (skip=bricks), and to the brick with the higher index if rays leap over cubes of
+// bricks (skip=distance). For rays in the negative direction of an axis, these are two different
+// bricks.
 TEST(CountedAsTimed, SamplesOnBrickFacesAreCountedAsDrawn) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("surfaces");

@@ -1,5 +1,5 @@
-// Tests voxels stored as half floats: images are within the bound for the rounded data, they are
-// unchanged if nothing is rounded, and half floats need half the memory of floats.
+// Tests voxels stored as half floats: images are within the error bound for the rounded data, they
+// are unchanged if nothing is rounded, and half floats need half the memory of floats.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-// Tests the problems V1–V7 and V9 on real devices: the images converge to the closed-form solutions
-// with the expected order of the quadrature.
+// Tests the problems V1–V7 and V9 (reference/analytic_scenes.hpp) on real devices: the images
+// converge to the closed-form solutions with the expected order of the quadrature.
 
 #include <algorithm>
 #include <cmath>
@@ -103,9 +103,10 @@ TEST(Orders, V7IsLimitedByItsFaces) {
   });
 }
 
-// Compares the shaded image of a device with the true gradient of the wave. The error is the sum of
-// three differences: between the device's samples and the limit for small steps, between the limit
-// and the grid, and between central differences and the gradient.
+// Compares the shaded image of a device with the closed-form solution for the true gradient of the
+// wave. The error has three parts: the device's round-off; the difference between the image for
+// this step size and the image in the limit of small steps; and the difference between that limit,
+// whose gradients are central differences on a grid, and the closed-form solution.
 double wave_error_on(measure::Device& device, int size) {
   const reference::AnalyticScene analytic = scene_of(AnalyticProblem::v9_wave, size, 0.25);
   constexpr double tolerance = 1e-7;

@@ -1,4 +1,5 @@
-// Tests that the counters are consistent with each other and reproduce the paper's result.
+// Tests that the counters are consistent with each other and reproduce a result of the paper by
+// Bruder et al. (docs/paper.md).
 
 #include <algorithm>
 
@@ -49,8 +50,8 @@ TEST(ParticleCounters, AddUp) {
 }
 
 // Sprites of every shape cover the sphere's disc, so the same number of fragments is kept for every
-// shape. A polygon with more corners wastes fewer fragments (S6). Tiles process no fragment behind
-// a hit.
+// shape. A polygon with more corners wastes fewer fragments (S6 in
+// reference/sphere_closed_forms.hpp). `tiles` processes no fragment behind a hit.
 TEST(ParticleCounters, SpritesOfEveryShapeKeepTheSameFragments) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = generated_work("uniform", 100, "orbit_y:1/8", 256);

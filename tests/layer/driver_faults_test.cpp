@@ -57,8 +57,8 @@ const std::vector<Fault>& faults() {
   return all;
 }
 
-// Returns the number of causes: those on the last screen, each of which follows an empty line, plus
-// those that are shown only on the page.
+// Returns the number of causes: those on the last screen (the summary at the end of a gate), each
+// of which follows an empty line, plus those that are shown only on the HTML page.
 int causes_in(const std::string& screen) {
   const std::regex cause("\n\n  ✗ ");
   int causes = static_cast<int>(std::distance(
