@@ -45,9 +45,9 @@ TEST(ParticleFaults, EveryFaultChangesTheImage) {
   });
 }
 
-// This fault makes the early test use the back of a sphere instead of its front. If a driver does
-// not reject fragments early, the image cannot reveal the fault. Therefore each backend's own tests
-// examine the shader.
+// The fault `wrong_sense` makes the early depth test use the back of a sphere instead of its front.
+// If a driver does not reject fragments early, the image cannot reveal the fault. Therefore each
+// backend's own tests examine the shader.
 TEST(ParticleFaults, TheWrongSenseIsFoundWhereFragmentsAreRejectedEarly) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();

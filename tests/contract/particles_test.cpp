@@ -98,9 +98,10 @@ TEST(Particles, RaysComputedAtVerticesAreCorrect) {
       work.options.ray = technique::ComputedAt::vertex;
       expect_all_true(device, work);
     }
-    // Uses many small sprites, because they are displaced the most by the rasterizer's grid. If the
-    // plane of rays of a triangle were used outside that triangle, its error would exceed the bound
-    // here.
+    // Tests many small sprites, because snapping to the rasterizer's grid distorts them the most.
+    // With ray=vertex, rays are interpolated linearly between the corners of each triangle. If the
+    // interpolation of one triangle were used outside that triangle, the error would exceed the
+    // bound here.
     ParticleWork many =
         generated_work("uniform", 4000, "orbit_y:1/8", 160, scene::ColourKind::intensity);
     many.options.ray = technique::ComputedAt::vertex;

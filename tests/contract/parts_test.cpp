@@ -1,5 +1,5 @@
-// Tests that drawing a volume in parts gives a bit-identical image and the same counts as drawing
-// the whole volume.
+// Tests that drawing a volume in parts (slabs that fit into device memory one at a time) gives a
+// bit-identical image and the same counts as drawing the whole volume.
 
 #include "technique/volume/parts.hpp"
 
@@ -16,8 +16,9 @@ using scene::Quadrature;
 using technique::Sampler;
 using technique::Skip;
 
-// Cameras outside of the volume; inside it, looking along the parts, across them and towards the
-// last part; and so far away that rays begin on a plane in front of the volume.
+// Returns five cameras: outside of the volume; inside it, looking along the slabs; outside, looking
+// across all slabs; inside, looking out through the last slab; and so far away that rays begin on a
+// plane in front of the volume.
 std::vector<scene::Camera> cameras(const scene::Box& box) {
   const glm::dvec3 size = box.hi - box.lo;
   const auto at = [&](double x, double y, double z) { return glm::dvec3(x, y, z) * size; };
@@ -97,8 +98,9 @@ measure::Work work_of(std::string_view generator, scene::VolumeScene scene) {
           .scene = measure::VolumeWork{.scene = std::move(scene), .options = {}}};
 }
 
-// With `all`, draws from every side with leaps and from inside with walks. Without it, draws only
-// from inside and with leaps.
+// With `all`, draws from all cameras with skip=distance, and from the camera inside the volume that
+// looks along the slabs with every other skip mode. Without `all`, draws only from that camera and
+// only with skip=distance.
 void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work, bool all) {
   const auto views = cameras(volume_of(work).scene.box());
   for (const Skip skip : {Skip::none, Skip::bricks, Skip::distance}) {
@@ -184,8 +186,9 @@ TEST(Parts, MatchWithMergedBricksOrDoublePrecision) {
   });
 }
 
-// A walk has no brick for a last sample behind the exit, so it reads that sample even if no part
-// has uploaded its voxels.
+// A ray that walks from brick to brick (skip=bricks) may take one last sample beyond the point
+// where it leaves a visible brick. The voxels of this sample may belong to a part in which all
+// bricks are invisible, so that part must be uploaded, too.
 TEST(Parts, InvisiblePartsAreReadIfAWalkReadsThem) {
   on_every_driver([](measure::Device& device) {
     scene::Volume volume{.size = {16, 16, 64}, .type = scene::ScalarType::u8, .range_hi = 255};

@@ -59,8 +59,8 @@ TEST(Skipping, RealVolumesAreBitIdentical) {
 }
 
 // A perfect method would take exactly the samples with non-zero opacity. Every skip mode must take
-// all of these samples. Leaps over smaller bricks must not take more additional samples than a walk
-// does.
+// all of these samples. Leaps (skip=distance), which use smaller bricks, must not take more
+// additional samples than a walk from brick to brick (skip=bricks).
 TEST(Skipping, TakesAllVisibleSamplesAndFewOthers) {
   const auto files = real_volumes();
   if (files.empty()) GTEST_SKIP() << "TRIPTYCH_DATA names no folder with volumes/";

@@ -56,9 +56,10 @@ TEST(SphereForms, S1SilhouettesAreEllipses) {
   });
 }
 
-// From a distance of 200,000 radii, rays are parallel to within 1e-5. At the rim, the integrand
-// falls to 0 like a square root. The pixels there, over which the value changes by R^½, have an
-// error below R^−3/2 of the mean.
+// From a distance of 200,000 radii, rays are parallel to within 1e-5. At the rim of a disc with a
+// radius of R pixels, the integrand falls to 0 like a square root, so it changes by about R^−½ from
+// one pixel to the next. About R of the R² pixels are at the rim, so the error of the mean is below
+// R^−3/2.
 TEST(SphereForms, S3TheMeanCosineOverADiscIsTwoThirds) {
   on_every_driver([](measure::Device& device) {
     const double radius_px = 60;
@@ -107,9 +108,10 @@ TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
 }
 
 // The centres are distributed over a square whose central part is in view, so that discs reach in
-// from outside as they would on a torus. The share of the image that remains uncovered has a
-// standard deviation of less than √(s·(1−s)·4πr²/A), because only points within 2r of each other
-// are correlated.
+// from outside as they would on a torus. Let s be the expected share of the view that remains
+// uncovered, r the radius of a disc, and A the area of the view. The uncovered share has a standard
+// deviation of less than √(s·(1−s)·4πr²/A), because only points within 2r of each other are
+// correlated.
 TEST(SphereForms, S5RandomDiscsLeaveTheExpectedShareUncovered) {
   on_every_driver([](measure::Device& device) {
     constexpr int discs = 400;
@@ -130,11 +132,11 @@ TEST(SphereForms, S5RandomDiscsLeaveTheExpectedShareUncovered) {
   });
 }
 
-// Computes the ratio between the fragments of an N-gon and those of its disc. The polygon is
-// enlarged by 1/64 pixel and by perspective, both of which are below a thousandth here. Some of its
-// edges are horizontal, vertical or at 45°, so a whole edge may lie on one side of the pixel
-// centres. This adds or removes up to half a pixel per pixel of the outline, whose length is at
-// most 8R.
+// Compares the number of fragments of an N-gon around a disc with the expected ratio of their
+// areas. The polygon is enlarged by 1/64 pixel and by perspective, both of which are below a
+// thousandth here. Some of its edges are horizontal, vertical or at 45°, so a whole edge may lie on
+// one side of the pixel centres. This adds or removes up to half a pixel per pixel of the outline,
+// whose length is at most 8R for a disc with a radius of R pixels.
 TEST(SphereForms, S6PolygonsWasteTheExpectedFragments) {
   on_every_driver([](measure::Device& device) {
     const double radius_px = 60;

@@ -1,5 +1,5 @@
-// Tests the cases of the stress catalogue that need more than a single image: a hundred transfer
-// functions, a hundred repeats, denormals.
+// Tests the stress cases (numbered in suites/volume/stress_cases.cpp) that need more than a single
+// image: a hundred transfer functions, a hundred repeats, denormals.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
-// Tests that images differ from the reference image by no more than the derived bound, on the
-// default path and on every other path.
+// Tests that images differ from the reference image by no more than the derived error bound, on the
+// device's default path (its preferred voxel format and sampler) and on every other path.
 
 #include <cmath>
 
@@ -36,8 +36,8 @@ TEST(Truth, EveryPathStaysWithinItsBound) {
   });
 }
 
-// The last sample of a ray may lie several voxels behind the exit, where the field is constant and
-// has no gradient.
+// The last sample of a ray may lie several voxels behind the point where the ray leaves the volume.
+// The field is constant there and has no gradient.
 TEST(Truth, ShadedLongStepsStayWithinTheBound) {
   on_every_device([](measure::Device& device) {
     for (const technique::Sampler sampler :

@@ -51,7 +51,8 @@ inline record::Counts counts_of(measure::Device& device, const measure::Work& wo
   return device.prepare(work)->frame(measure::Purpose::counters).counts;
 }
 
-// Returns work that draws the scene on the device's default path.
+// Returns work that draws the scene on the device's default path, which is its preferred voxel
+// format and sampler.
 inline measure::Work default_work(const measure::Device& device, scene::Volume volume,
                                   scene::VolumeScene scene) {
   const measure::VolumePath path =

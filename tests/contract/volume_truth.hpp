@@ -10,8 +10,8 @@
 
 namespace triptych::contract {
 
-// Checks that every channel of every pixel is within the bound that is derived for the device's
-// path.
+// Checks that every channel of every pixel is within the error bound that is derived for the voxel
+// format, the sampler and the precision of this work.
 inline void expect_within_bound(measure::Device& device, const measure::Work& work) {
   const auto& volume = std::get<measure::VolumeWork>(work.scene);
   const measure::VolumePath path{volume.scene.grid->format, volume.options.sampler};

@@ -100,7 +100,8 @@ TEST(GlDevices, TheDefaultPathIsAsExactAsManualInterpolation) {
         EXPECT_EQ(path.voxel, native);
       }
     }
-    // This driver's sampler is known to be exact, so an error would come from the probe.
+    // This driver's sampler is known to be exact, so an error would come from the probe that
+    // measures samplers.
     if (device.info().driver == "llvmpipe") {
       const measure::VolumePath path = device.default_path({scene::VoxelFormat::u8});
       EXPECT_EQ(path.voxel, scene::VoxelFormat::u8);
@@ -141,7 +142,7 @@ TEST(GlDevices, ExceededLimitsAreReportedWithBothNumbers) {
   });
 }
 
-// Neither limit applies to frames that neither count nor skip bricks.
+// A scene is rejected even if only its counting frames need a larger buffer than the limit permits.
 TEST(GlDevices, CountersAndBrickMapsMustFitIntoAStorageBlock) {
   static constexpr const char* limit = "GL_MAX_SHADER_STORAGE_BLOCK_SIZE";
   for_each_device([](const measure::Device& device) {

@@ -32,7 +32,8 @@ std::uint64_t covered(const core::Image& image) {
 std::uint64_t corners_of(std::string_view technique) {
   if (technique == "point") return 1;
   if (technique == "polygon_tess") return 8;
-  // For a radius of 14 pixels, the cube root of 0.323·14² is 3.98.
+  // The adaptive polygon chooses its number of corners from the radius R in pixels, as the cube
+  // root of 0.323·R². For a radius of 14 pixels, this is 3.98.
   return 4;
 }
 
@@ -129,7 +130,8 @@ TEST(GlParticleFrames, StatisticsCoverExactlyTheStagesInUse) {
   });
 }
 
-// Returns large spheres in front of small ones, in separate cells.
+// Returns large spheres in front of small ones, in separate cells. (Particles are sorted into
+// cells, which are drawn and culled as a whole.)
 scene::ParticleScene large_before_small() {
   std::vector<std::array<double, 4>> spheres;
   for (int i = 0; i < 400; ++i) spheres.push_back({0.01 * (i % 20), 0.01 * (i / 20.0), -4, 1});
@@ -140,7 +142,7 @@ scene::ParticleScene large_before_small() {
 }
 
 // Returns the number of work groups of 64 invocations that a frame has in addition to those that
-// resolve tiles.
+// resolve tiles. The comments at the ends of lines name the passes, which tiles.glsl describes.
 std::uint64_t groups_of_other_passes(const scene::ParticleScene& scene,
                                      const technique::TileRounds& rounds) {
   constexpr std::uint64_t group = 64;
@@ -168,12 +170,13 @@ struct InOnePlace {
   double radius;
   std::size_t spheres;
   std::uint64_t tiles;  // the number of tiles that each sphere may overlap
-  bool at_once;
+  bool at_once;         // whether the last pass draws the large spheres
 };
 
-// Draws spheres in an image of 45×38 pixels, which has 9 tiles. There must be 32 invocations for
-// each tile that a sphere may overlap, and none for other tiles. Small spheres are drawn while they
-// are sorted, and a few large spheres are drawn by the last pass.
+// Draws spheres in an image of 45×38 pixels, which has 9 tiles. There must be 32 invocations of the
+// pass that resolves (draws) tiles for each tile that a sphere may overlap, and none for other
+// tiles. Small spheres are drawn while they are sorted, and a few large spheres are drawn by the
+// last pass.
 TEST(GlParticleFrames, EmptyTilesAreNotResolved) {
   for_each_device([](measure::Device& device) {
     if (device.info().driver != "llvmpipe")
@@ -195,8 +198,8 @@ TEST(GlParticleFrames, EmptyTilesAreNotResolved) {
   });
 }
 
-// If large spheres come before small ones, no round resolves more than all 9 tiles, and the last
-// round resolves none.
+// A frame processes its cells in several rounds. If large spheres come before small ones, no round
+// resolves more than all 9 tiles, and the last round resolves none.
 TEST(GlParticleFrames, RoundsWithoutLargeSpheresAreNotFilled) {
   for_each_device([](measure::Device& device) {
     if (device.info().driver != "llvmpipe") return;

@@ -23,9 +23,9 @@ struct Verdict {
 };
 
 // Returns the suite's error model. An 8-bit filter also rounds its result. That rounding error does
-// not shrink with the difference between voxels, and the probe, which uses the largest possible
-// difference, cannot distinguish it from an error in the weights. Therefore the error found by the
-// probe is allowed for both.
+// not shrink with the difference between voxels. The probe that measures the filter uses the
+// largest possible difference, so it cannot distinguish the rounding error from an error in the
+// weights. Therefore the error that the probe found is allowed for both.
 reference::ErrorModel error_model(const scene::VolumeScene& scene, double ert,
                                   double filter_error) {
   reference::ErrorModel model =

@@ -71,8 +71,9 @@ inline reference::SphereTruth truth_of(const scene::ParticleScene& scene) {
       scene, particles_suite::error_model(scene, technique::ComputedAt::pixel));
 }
 
-// Returns the number of wrong pixels: certain pixels whose id or depth differs from the reference
-// image, and pixels whose colour differs by more than the bound.
+// Returns the number of wrong pixels. A pixel is wrong if its colour differs from the reference
+// image by more than the bound. A pixel for which the reference renderer is certain which sphere is
+// visible is also wrong if its id or depth differs.
 inline int wrong_pixels(const core::Image& image, const reference::SphereTruth& truth) {
   int wrong = 0;
   for (std::size_t i = 0; i < truth.ids.size(); ++i) {

@@ -75,8 +75,9 @@ measure::Work particle_work(std::string_view technique, const scene::ParticleSce
 constexpr reference::SphereErrorModel bounds{
     .lateral_px = 1e-4, .lateral_relative = 2e-7, .depth_relative = 2e-6};
 
-// Returns the number of wrong pixels: certain pixels whose id differs from the reference image, or
-// whose distance differs by more than the rounding error of single precision.
+// Returns the number of wrong pixels among those for which the reference renderer is certain which
+// sphere is visible. A pixel is wrong if its id differs from the reference image, or if its
+// distance differs by more than the rounding error of single precision.
 int wrong_pixels(const core::Image& image, const reference::SphereTruth& truth) {
   int wrong = 0;
   for (std::size_t i = 0; i < truth.ids.size(); ++i) {
@@ -268,7 +269,7 @@ TEST(VulkanParticles, StatisticsCoverExactlyTheStagesInUse) {
   });
 }
 
-// Returns the number of certain pixels that an injected fault makes wrong.
+// Returns the number of pixels that an injected fault makes wrong, as wrong_pixels() counts them.
 int pixels_wrong_by(measure::Device& device, std::string_view technique,
                     const scene::ParticleScene& scene, ParticleFault fault) {
   const reference::SphereTruth truth = reference::render_spheres(scene, bounds, 1);

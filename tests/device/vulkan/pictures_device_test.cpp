@@ -193,7 +193,7 @@ TEST(VulkanPictures, SpeedOfLightReadsTheSameSamplesAsRaycast) {
     double alpha = 0;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
       red += static_cast<double>(image.rgba[i]);
-      alpha -= static_cast<double>(image.rgba[i + 3]);  // 1 − (1 + Σ α)
+      alpha -= static_cast<double>(image.rgba[i + 3]);  // the image contains 1 + Σ α
     }
     EXPECT_EQ(red, static_cast<double>(counted.counts.at("samples")));
     EXPECT_EQ(alpha, red / 8);

@@ -1,4 +1,5 @@
-// Tests that the correlation finds injected slowdowns, and reports nothing else.
+// Tests that the check `correlation`, which compares the costs of one device with those of another,
+// finds injected slowdowns, and reports nothing else.
 
 #include <gmock/gmock.h>
 
@@ -121,8 +122,8 @@ TEST(AcceptedDevices, LessIsAnImprovement) {
   EXPECT_EQ(found[0].verdict, Verdict::improved);
 }
 
-// If a code change affects both devices equally, it does not change their residual. The check
-// `cost` finds it instead.
+// If a code change affects both devices equally, it does not change their residual, which is the
+// logarithm of the ratio of their costs. The check `cost` finds it instead.
 TEST(AcceptedDevices, EqualChangesLeaveTheResidualUnchanged) {
   CorrelationWorld world(7);
   world.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));

@@ -1,4 +1,5 @@
-// Tests how changes of residuals are attributed to levels and configurations.
+// Tests how changes of residuals (logarithms of the ratio of two devices' costs) are attributed to
+// levels and configurations.
 
 #include <gmock/gmock.h>
 

@@ -92,8 +92,8 @@ TEST_F(TruthsTest, AreRenderedOnceAndReused) {
   EXPECT_EQ(suite_.rendered, 2);
 }
 
-// Anyone can write a valid seal into a store before passing it on. Therefore, only reference images
-// that this user rendered on this machine are trusted.
+// Anyone can write a reference image with a valid seal (a hash) into a store before passing the
+// store on. Therefore, only reference images that this user rendered on this machine are trusted.
 TEST_F(TruthsTest, ABoundFromAnotherUserIsComputedAgain) {
   {
     record::Store first = store();

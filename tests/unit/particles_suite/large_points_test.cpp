@@ -1,6 +1,6 @@
 // If a sphere is larger than the largest point of a device, it may be drawn as a quad, so some of
-// its counts are open. Compares the computed open counts with those of spheres of known size in the
-// image.
+// its counts are open, which means that they may differ between correct devices. Compares the
+// computed open counts with those of spheres of known size in the image.
 
 #include "suites/particles/large_points.hpp"
 

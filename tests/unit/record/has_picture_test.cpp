@@ -1,4 +1,4 @@
-// Records contain only the name of a technique, because the room `record` must not depend on the
+// Records contain only the name of a technique, because the library `record` must not depend on the
 // catalogue of techniques. Therefore, this test checks that has_picture() and the catalogue agree
 // on which techniques draw images.
 

@@ -29,7 +29,8 @@ int number_from(const char* variable, int standard) {
 
 // The records resemble those of a volume study: 14 factors, a frame timed by two clocks, six
 // counters. They are in plan order, in which cameras vary fastest, rather than in alphabetical
-// order. A merge copies seals without checking them, so the seals need not be valid here.
+// order. A merge copies seals (checksums of rows) without checking them, so the seals need not be
+// valid here.
 constexpr const char* fill_sql = R"sql(
 CREATE TEMP TABLE n AS WITH RECURSIVE n (seq, i) AS (
   SELECT 1, :first UNION ALL SELECT seq + 1, i + :step FROM n WHERE seq < :count)

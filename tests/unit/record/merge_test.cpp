@@ -346,7 +346,8 @@ TEST_F(Merge, AnEmptyShardIsAGap) {
   EXPECT_EQ(gaps[0].configurations, 0U);
 }
 
-// If a value was changed in a shard, the error must be detected in the merged store.
+// A merge keeps the seals (checksums) of records. If a value was changed in a shard, the error must
+// be detected in the merged store.
 TEST_F(Merge, SealsRemainValid) {
   const fs::path file = shard(1, {record_of(1)});
   static_cast<void>(merge({file}));

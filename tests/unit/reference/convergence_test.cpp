@@ -17,7 +17,8 @@ namespace {
 struct Difference {
   double rms = 0;
   double largest = 0;
-  // The largest amount by which the error of a pixel exceeds the error of the grid model.
+  // The largest amount by which the error of a pixel exceeds AnalyticPixel::model_error, the part
+  // that is due to the finite grid and table.
   double excess = 0;
 };
 

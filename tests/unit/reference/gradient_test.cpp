@@ -1,6 +1,7 @@
 // Compares the gradient that the reference renderer uses for shading with closed-form solutions:
-// with the factor of problem V9 for samples at voxel centres, and with quadratic fields, for which
-// central differences are exact everywhere.
+// with a sine wave, for which the central difference at voxel centres is the derivative times a
+// known factor (problem V9 in closed_forms.hpp), and with quadratic fields, for which central
+// differences are exact everywhere.
 
 #include <gtest/gtest.h>
 

@@ -26,8 +26,9 @@ Segment segment(const Table& table, double from, double to, double length) {
                                       {length, length, length});
 }
 
-// If a path starts between two opaque entries, only the colour at its start is visible. If it
-// starts in a cell with only one opaque entry, the colours of both entries are visible.
+// A step passes through a range of table entries, called its path. If a path starts between two
+// opaque entries, only the colour at its start is visible. If it starts in a cell (between two
+// entries) with only one opaque entry, the colours of both entries are visible.
 TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
@@ -42,8 +43,9 @@ TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
       EXPECT_NEAR(found.looked.colour[i], table.at(from)[i], 1e-12) << from << ' ' << to;
     }
   }
-  // The integral is ∫ c·τT from entry 119 on. The cell before the opaque entry absorbs most of the
-  // light, so little of it is left for the entry itself.
+  // The integral is ∫ c·τT from entry 119 on, with colour c, extinction τ and transmittance T. The
+  // cell before the opaque entry absorbs most of the light, so little of it is left for the entry
+  // itself.
   const Segment ramp = segment(table, 119, 130, 11);
   double seen = 0;
   double left = 1;

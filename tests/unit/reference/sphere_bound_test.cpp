@@ -46,9 +46,10 @@ std::vector<Place> places_around(std::size_t i, int width, double reach) {
   return places;
 }
 
-// Checks rays near each pixel. Within the margin, a certain pixel must keep its id, and every pixel
-// must keep its colour within the bound. For rays displaced by up to `lateral_px`, depth and colour
-// of certain pixels must stay within their bounds.
+// Checks rays near each pixel. The renderer marks a pixel as certain if no permitted error can
+// change which sphere is visible there. For rays within the margin, a certain pixel must keep its
+// id, and any other pixel must keep its colour within the bound. For rays displaced by up to
+// `lateral_px`, depth and colour of certain pixels must stay within their bounds.
 void expect_bounded(const scene::ParticleScene& scene, const SphereErrorModel& model,
                     const std::string& what) {
   const SphereTruth truth = render_spheres(scene, model);

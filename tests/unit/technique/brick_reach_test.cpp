@@ -1,4 +1,5 @@
-// Compares the distances that rays may leap with a search through every brick.
+// Compares the distances that rays may leap over bricks of one kind (visible or empty) with a
+// search through every brick.
 
 #include "technique/volume/brick_reach.hpp"
 

@@ -183,8 +183,9 @@ TEST(PreintegratedStep, IsExactHoweverOpaqueItIs) {
   }
 }
 
-// If all whole cells are taken at once regardless of their optical depth, three coefficients cannot
-// represent their light. The bound must detect that.
+// If all whole cells between table entries are processed at once regardless of their optical depth,
+// the three coefficients that the shader uses cannot represent their light. The bound must detect
+// that.
 TEST(PreintegratedStep, InOneChunkExceedsTheBound) {
   const scene::TransferFunction function = scene::load_transfer_function("surfaces");
   for (const auto& [length, error] : {std::pair{2.0, 5e-3}, {64.0, 0.25}}) {
@@ -223,7 +224,8 @@ TEST(PreintegratedStep, IsSplitIntoChunksIfItMayBeDeep) {
 
 // `tau(s)` is the extinction at the relative position s in a cell. Expresses the position as a
 // function of the share of the optical depth with three coefficients, and returns the remaining
-// error divided by the squared tilt.
+// error divided by the squared tilt, which is the relative difference of the extinctions at both
+// ends.
 double left_behind(double tau_a, double tau_b, const auto& tau) {
   constexpr int parts = 4000;
   // Positions are denser at both ends.

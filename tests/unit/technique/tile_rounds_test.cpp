@@ -41,8 +41,8 @@ TEST(TileRounds, ContainEveryCellOnceWithinTheirLimits) {
   }
 }
 
-// Each of the 2,048 spheres around the eye covers every tile, and an invocation processes 32
-// spheres.
+// Each of the 2,048 spheres around the eye covers every tile, and an invocation loops over the
+// tiles of 32 spheres.
 TEST(TileRounds, SpheresAroundTheEyeMakeAsManyPassesAsTheyHaveTiles) {
   scene::ParticleScene scene = uniform(2048, 1000);
   scene.camera.eye = {0.5, 0.5, 0.5};
@@ -67,14 +67,15 @@ TEST(TileRounds, SmallSpheresNeedNoEntries) {
 TEST(TileRounds, OnlyLargeSpheresMeansThatNoneIsSmall) {
   const scene::ParticleScene large = uniform(8, 2);
   EXPECT_FALSE(tile_rounds(large, arrange(large), 65535, 1U << 20U).small);
-  // The sphere may be visible in only a few pixels.
+  // From this position, a sphere may be visible in only a few pixels, so it may count as small.
   scene::ParticleScene edge = large;
   edge.camera.eye = {5, 5, 5};
   EXPECT_TRUE(tile_rounds(edge, arrange(edge), 65535, 1U << 20U).small);
 }
 
-// If there are only a few large spheres, every pixel reads their entries. Otherwise, the entries
-// are resolved once for all pixels of a column.
+// If there are only a few large spheres, every pixel loops over the entries (the large spheres that
+// reach its tile). Otherwise, a separate pass, tiles_resolve, finds the nearest entry for each
+// pixel, in columns of eight pixels.
 TEST(TileRounds, FewLargeSpheresAreDrawnDirectly) {
   for (const auto& [count, at_once] : {std::pair{8U, true}, {200U, false}, {60000U, false}}) {
     const scene::ParticleScene scene = uniform(count, 2);
