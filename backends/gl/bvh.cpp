@@ -28,7 +28,9 @@ constexpr GLuint first_shown_texels = 16;
 enum class BuildPass : std::uint8_t { keys, count, rows, totals, scatter, leaves, level };
 constexpr std::array<std::string_view, 7> build_passes{"keys",    "count",  "rows", "totals",
                                                        "scatter", "leaves", "level"};
-// Flags in TRI_STEP.w of bvh.comp.glsl.
+// Flags in TRI_STEP.w of bvh.comp.glsl. A beam consists of the rays of 4×2 pixels, which one
+// invocation traces. continues_beams resumes the traversals that an earlier dispatch did not
+// finish, and leaves_beams stores where traversals stop.
 constexpr GLuint continues_beams = 1;
 constexpr GLuint leaves_beams = 2;
 

@@ -7,8 +7,9 @@
 
 namespace triptych::gl_backend {
 
-// One draw command for each cell, in the order of the arrangement. A command draws all particles of
-// its cell, unless cull.comp.glsl found that the cell is out of sight.
+// One draw command for each cell, in the order of technique::Arrangement. A cell is a range of
+// neighbouring particles. Its command draws all of them, unless cull.comp.glsl found that the cell
+// is out of sight.
 class CellDraws {
  public:
   // If `instanced` is true, each particle of a cell is drawn as an instance with four vertices;

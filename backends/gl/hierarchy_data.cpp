@@ -16,7 +16,7 @@ constexpr GLuint binding_tree_spheres = 8;
 constexpr GLuint binding_tree_order = 9;
 constexpr GLuint binding_sorted = 10;
 constexpr GLuint binding_tree_scratch = 12;
-constexpr GLuint first_tree_texels = 13;  // boxes, spheres, order
+constexpr GLuint first_tree_texels = 13;  // of three texture units: boxes, spheres, order
 
 constexpr std::size_t tree_word = sizeof(GLuint);
 

@@ -20,7 +20,8 @@ class HierarchyData {
 
   // Binds storage blocks 7…10 and 12, and texture units 13…15.
   void bind(const Api& gl) const;
-  // Returns whether every beam has ended (bvh.comp.glsl, TRI_STEP).
+  // Returns whether the traversal of every beam has ended. A beam consists of the rays of 4×2
+  // pixels, which one invocation traces (bvh.comp.glsl, TRI_STEP).
   [[nodiscard]] bool all_ended(const Api& gl) const;
 
  private:

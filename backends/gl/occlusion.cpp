@@ -26,7 +26,7 @@ GLuint blocks(int pixels) {
 Occlusion::Occlusion(const Api& gl, const measure::ParticleWork& work, std::size_t cells)
     : blocks_{blocks(work.scene.width), blocks(work.scene.height)},
       farthest_(device_buffer(gl, sizeof(GLuint) * blocks_[0] * blocks_[1])) {
-  // Before the first frame, all cells count as visible.
+  // Before the first frame, all cells (ranges of neighbouring particles) count as visible.
   const std::vector<GLuint> ones(cells + 1, 1U);
   for (Buffer& each : visible_) each = constant_buffer(gl, std::as_bytes(std::span(ones)));
   const std::vector<Stage> stages =

@@ -9,7 +9,8 @@
 namespace triptych::gl_backend {
 
 // The data that the two passes of occlusion culling use (technique/particles/occlusion.glsl): the
-// cells that were visible in the previous frame, and the farthest depth in each block of pixels.
+// cells (ranges of neighbouring particles) that were visible in the previous frame, and the
+// farthest depth in each block of pixels.
 class Occlusion {
  public:
   Occlusion(const Api& gl, const measure::ParticleWork& work, std::size_t cells);

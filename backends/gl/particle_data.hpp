@@ -45,7 +45,8 @@ class ParticleCounters {
   explicit ParticleCounters(const Api& gl);
   // Sets all counters to zero and binds them to binding 2.
   void start(const Api& gl) const;
-  // Returns the counters of all rows. The device must have finished counting.
+  // Returns all rows of counters; the value of a counter is the sum of its column. The device must
+  // have finished counting.
   [[nodiscard]] std::vector<std::uint32_t> read(const Api& gl) const;
 
  private:

@@ -19,7 +19,8 @@ class ParticleTarget {
   // Clears colour to the background, ids to "no particle", and depth to a value against which every
   // particle passes the depth test.
   void clear(const Api& gl, const std::array<float, 4>& background) const;
-  // `near` is the scale of the depth buffer: Z = near/z.
+  // `near` is the scale of the depth buffer, which contains near/Z for a surface at the distance Z
+  // along the view axis.
   [[nodiscard]] core::Image read(const Api& gl, double near) const;
   [[nodiscard]] GLuint depth_texture() const { return depth_.get(); }
 
@@ -33,7 +34,8 @@ class ParticleTarget {
   Framebuffer framebuffer_;
 };
 
-// Converts depth to Z where there is a particle, and to +infinity where there is none.
+// Converts each depth near/Z to the distance Z along the view axis, or to +infinity if the pixel
+// shows no particle.
 void to_distances(core::Image& image, double near);
 
 }  // namespace triptych::gl_backend

@@ -71,10 +71,11 @@ ParticleStage cull_stage(bool instanced, int pass) {
       fmt::format("#define TRI_INSTANCED {:d}\n#define TRI_OCCLUSION {}\n", int{instanced}, pass)};
 }
 
-// With occlusion culling, a second draw follows the first and draws the cells that became visible.
-// A sphere of the second draw is therefore drawn after the cells of the first draw, although it may
-// precede them in the arrangement. Because the camera does not move, what was hidden stays hidden,
-// so the second draw is empty. Even if it were not empty, the order would matter only for exactly
+// With occlusion culling, a second draw follows the first. It draws the cells (ranges of
+// neighbouring particles) that have become visible since the previous frame. Its spheres are
+// therefore drawn after those of the first draw, although their cells may come first in the drawing
+// order (technique::Arrangement). Because the camera does not move, hidden cells stay hidden, so
+// the second draw is empty. Even if it were not empty, the order would matter only for exactly
 // equal depths in different cells.
 class SpriteDrawing final : public Drawing {
  public:

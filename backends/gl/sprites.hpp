@@ -18,7 +18,8 @@ struct SpriteDraw {
   GLenum mode = GL_POINTS;
   // Whether a particle is an instance of four vertices (true) or a single vertex (false).
   bool instanced = false;
-  // draws only cells that may contain spheres larger than the largest point
+  // whether to draw only cells (ranges of neighbouring particles) that may contain spheres larger
+  // than the largest point
   bool large_only = false;
   std::vector<ParticleStage> stages;  // the stages before the fragment stage
 };

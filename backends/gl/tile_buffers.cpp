@@ -33,11 +33,11 @@ constexpr GLuint binding_id_texels = 19;
 constexpr GLuint image_unit = 0;  // TRI_LARGE_PIXELS
 
 constexpr std::size_t word = sizeof(GLuint);
-constexpr std::size_t header_words = 8;  // small_kept … groups
+constexpr std::size_t header_words = 8;  // from small_kept to groups in tiles.glsl
 constexpr std::size_t groups_at = 4 * word;
 constexpr std::size_t tile_words = 8;
 constexpr std::size_t planes = 2;
-constexpr GLuint block_edge = 4;  // TRI_BLOCK
+constexpr GLuint block_edge = 4;  // in tiles; TRI_BLOCK
 
 GLuint parts(int size, int part) {
   return static_cast<GLuint>((size + part - 1) / part);
@@ -63,8 +63,8 @@ std::size_t colour_words(scene::ColourKind colour) {
   return colour == scene::ColourKind::rgba32 ? 4 : 1;
 }
 
-// Creates a texture in which each texel stores two pixels, one above the other. It has a single
-// texel if no large spheres are resolved.
+// Creates a texture in which each texel stores two pixels, one above the other. `any` is true if
+// passes before the last one draw large spheres; otherwise, the texture has a single texel.
 Texture pair_texture(const Api& gl, int width, int height, bool any) {
   const GLsizei columns = any ? width : 1;
   const GLsizei rows = any ? (height + 1) / 2 : 1;
@@ -99,8 +99,8 @@ std::optional<std::string> TileBuffers::unsupported(const Api& gl,
         "{}x{} pixels need a storage block of {} bytes, but GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
         scene.width, scene.height, static_cast<std::int64_t>(planes * word) * pixels, most);
   }
-  // The largest number of entries that a cell can need, which occurs if each of its spheres
-  // overlaps every tile.
+  // An entry is a pair of a tile and a large sphere that overlaps it. A cell (a range of
+  // neighbouring particles) needs the most entries if each of its spheres overlaps every tile.
   const std::int64_t tiles = std::int64_t{parts(scene.width, technique::tile_edge)} *
                              parts(scene.height, technique::tile_edge);
   const auto crowd = std::min<std::int64_t>(4 * technique::particles_per_cell,

@@ -14,14 +14,16 @@
 
 namespace triptych::gl_backend {
 
-// The buffers through which the passes of tiles.glsl exchange data.
+// The buffers through which the passes of tiles.glsl exchange data. A cell is a range of
+// neighbouring particles. A round is a range of cells that are processed together. An entry is a
+// pair of a tile and a large sphere that overlaps it.
 class TileBuffers {
  public:
   // The number of entries that a round should not exceed. This many entries occupy 64 MiB.
   static constexpr std::uint64_t wanted_entries = std::uint64_t{1} << 24U;
   enum class Cells : std::uint8_t { all, thinned };
 
-  // Returns the reason why an image of this size, or one of its cells, exceeds the device's limits;
+  // Returns the reason why an image of this size, or a single cell, exceeds the device's limits;
   // nullopt if neither does.
   [[nodiscard]] static std::optional<std::string> unsupported(const Api& gl,
                                                               const scene::ParticleScene& scene);
@@ -38,7 +40,8 @@ class TileBuffers {
   void choose(const Api& gl, Cells cells) const;
   // Overwrites all data that a frame writes before it reads them.
   void poison(const Api& gl) const;
-  // Clears the tiles and lists. Also clears the pixels if any round draws into them.
+  // Clears the tiles and lists. Also clears the pixels if there may be small spheres, because only
+  // small spheres are drawn into them.
   void clear(const Api& gl) const;
   // Begins a round with no large spheres, no entries, and no tiles to draw into.
   void start_round(const Api& gl) const;

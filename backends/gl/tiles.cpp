@@ -182,9 +182,10 @@ class TilesDrawing final : public Drawing {
     run_on(gl, programs, bin, round, round.cells);
   }
 
-  // Computes the depth of every pixel in all rounds. The injected extra work sorts a part of each
-  // round's particles a second time. It does so before the tiles are resolved, because resolved
-  // tiles would reject the particles.
+  // Computes the depth of every pixel. Each round processes a range of the cells, which are ranges
+  // of neighbouring particles. The injected extra work sorts a part of each round's particles into
+  // tiles a second time. It does so before the tiles are resolved (drawn), because afterwards the
+  // tiles would reject these particles as hidden.
   void draw_depths(const Api& gl, const Programs& programs, bool extra) const {
     buffers_.clear(gl);
     for (const technique::TileRound& round : rounds_.rounds) {
@@ -201,8 +202,8 @@ class TilesDrawing final : public Drawing {
     }
   }
 
-  // Draws the round's large spheres, unless the final pass draws them, and records which parts of
-  // the image are hidden.
+  // Draws the round's large spheres, unless the final pass draws them, and computes the farthest
+  // depth of each tile.
   void resolve_tiles(const Api& gl, const Programs& programs,
                      const technique::TileRound& round) const {
     run(gl, programs, place, buffers_.groups_for_tiles());

@@ -46,8 +46,9 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
   return texture;
 }
 
-// Creates the buffer for the cells of the whole volume or, if the volume is drawn in parts, for the
-// cells of one part.
+// Creates the buffer for packed cells, each of which stores the eight voxels around a position
+// (packed_cells.hpp). The buffer has space for all cells of the volume or, if the volume is drawn
+// in parts, for those of the largest part.
 Buffer cell_buffer(const Api& gl, const measure::VolumeWork& work,
                    const std::vector<technique::Part>& parts) {
   const scene::VoxelGrid& grid = *work.scene.grid;

@@ -66,7 +66,7 @@ class VolumeData {
   Buffer quadrature_;
   Buffer parameters_;
   std::optional<VolumeParts> parts_;
-  Buffer pauses_;  // the states of the rays between two parts
+  Buffer pauses_;  // the states that rays keep from one part to the next
   // The voxels and the transfer function are textures. With the packed sampler, they are stored in
   // the buffers cells_ and table_, and the shader reads them, the bricks and the quadrature through
   // buffer textures.

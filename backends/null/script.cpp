@@ -180,7 +180,7 @@ void play(FailureKind kind) {
     case FailureKind::not_supported:
       throw core::NotSupported("the null script declares this call unsupported");
     case FailureKind::garbage:
-      static_cast<void>(::write(4, "garbage", 7));  // measure/system/process.hpp
+      static_cast<void>(::write(4, "garbage", 7));  // 4: Process::child_answer_fd
       break;
     case FailureKind::wrong_image:
     case FailureKind::nan_image:

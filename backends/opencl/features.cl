@@ -25,7 +25,8 @@ __kernel void add_shorts(__global ushort* shorts) {
   shorts[i] = (ushort)(shorts[i] + (ushort)(3 * i));
 }
 
-// Samples a square image of `edge` texels at coordinates from -1 to 3, in units of the image size.
+// Samples a square image with `edge` texels per side, at coordinates from -1 to 3 (in units of the
+// image size).
 #define SAMPLE(name, mode)                                                                              \
   __constant sampler_t name##_sampler = CLK_NORMALIZED_COORDS_TRUE | mode | CLK_FILTER_NEAREST;          \
   __kernel void name(__read_only image2d_t texels, __global float* values, int edge) {                  \

@@ -51,7 +51,7 @@ class VolumeFrames final : public measure::Prepared, public measure::TracesPixel
   cl::Buffer quadrature_;
   cl::Buffer image_;
   cl::Buffer counters_;
-  cl::Buffer pauses_;                 // the states of the rays between two parts
+  cl::Buffer pauses_;                 // states that rays keep from one part to the next
   std::optional<VolumeParts> parts_;  // set if the volume does not fit on the device as a whole
   std::vector<Launch> timed_;         // one launch, with the injected extra work if there is any
   std::vector<Launch> counting_;      // one launch, without the injected extra work

@@ -9,10 +9,10 @@ namespace triptych::vulkan_backend {
 
 inline constexpr std::uint32_t commands_binding = first_free_binding;
 
-// The criterion by which a culling pass selects cells. `view` selects the cells inside the view.
-// The other two criteria are used by the two passes of occlusion culling, and also depend on the
-// visibility in the previous frame and on the result of the first pass
-// (technique/particles/cull.glsl: TRI_OCCLUSION).
+// The criterion by which a culling pass selects cells, which are ranges of neighbouring particles.
+// `view` selects the cells inside the view. The other two criteria are used by the two passes of
+// occlusion culling, and also depend on the visibility in the previous frame and on the result of
+// the first pass (technique/particles/cull.glsl: TRI_OCCLUSION).
 enum class CullPass : std::uint8_t { view, seen_before, seen_now };
 
 // The pass that removes cells outside the view, and the draws of the remaining cells.

@@ -19,7 +19,7 @@ std::uint32_t blocks(std::uint32_t pixels) {
   return (pixels + cull_block_edge - 1) / cull_block_edge;
 }
 
-// Before the first frame, all cells count as visible.
+// Before the first frame, all cells (ranges of neighbouring particles) count as visible.
 Buffer all_seen(const Gpu& gpu, std::uint32_t cells) {
   const std::vector<std::uint32_t> ones(cells + 1, 1U);
   return make_buffer(

@@ -9,7 +9,7 @@ namespace triptych::vulkan_backend {
 // The state that occlusion culling keeps from frame to frame, and the farthest depth of each block
 // of pixels. The camera of a prepared scene does not move. Therefore, from the second frame on, the
 // first pass draws everything that is visible and the second pass draws nothing, so particles are
-// drawn in the order of the arrangement.
+// drawn in the order of technique::Arrangement.
 class CellOcclusion {
  public:
   // `layout` contains the bindings of occlusion_bindings().
@@ -17,8 +17,8 @@ class CellOcclusion {
                 const Specialization& constants);
 
   void bind(vk::DescriptorSet set) const;
-  // Must be recorded before the first pass of a frame. The cells that were visible in the previous
-  // frame become the "before" set of occlusion.glsl.
+  // Must be recorded before the first pass of a frame. The cells (ranges of neighbouring particles)
+  // that were visible in the previous frame become the "before" set of occlusion.glsl.
   void start_frame(const vk::raii::CommandBuffer& commands) const;
   // `depth` must be in the layout eTransferSrcOptimal. The descriptor set must be bound for
   // compute.

@@ -31,7 +31,9 @@ constexpr std::array<std::string_view, 7> build_passes{
 constexpr std::string_view timed_trace = "bvh.comp.spv";
 constexpr std::string_view counting_trace = "bvh_counting.comp.spv";
 
-// Flags in TRI_STEP.w of bvh.comp.glsl.
+// Flags in TRI_STEP.w of bvh.comp.glsl. A beam consists of the rays of 4×2 pixels, which one
+// invocation traces. continues_beams resumes the traversals that an earlier dispatch did not
+// finish, and leaves_beams stores where traversals stop.
 constexpr std::uint32_t continues_beams = 1;
 constexpr std::uint32_t leaves_beams = 2;
 

@@ -1,5 +1,5 @@
-// Draws ray-aligned quads. Mesh shaders generate them for the cells that task shaders do not cull
-// (technique/particles/mesh.task.glsl, mesh.mesh.glsl).
+// Draws ray-aligned quads. Mesh shaders generate them for the cells (ranges of neighbouring
+// particles) that task shaders do not cull (technique/particles/mesh.task.glsl, mesh.mesh.glsl).
 #include <fmt/format.h>
 
 #include "backends/vulkan/sprite_frames.hpp"

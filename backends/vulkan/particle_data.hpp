@@ -1,6 +1,6 @@
 #pragma once
-// The data that every particle technique needs on the device: the arrangement, the parameters and
-// the counters.
+// The data that every particle technique needs on the device: the particles in the order of
+// technique::Arrangement, the parameters and the counters.
 
 #include <cstdint>
 #include <vector>
@@ -39,7 +39,8 @@ struct ParticleConstants {
 [[nodiscard]] ParticleConstants particle_constants(const Gpu& gpu,
                                                    const measure::ParticleWork& work);
 
-// Returns the number of pixels by which points must be enlarged on this device.
+// Returns the number of pixels that must be added to the size of a point so that this device draws
+// at least the intended square.
 [[nodiscard]] float point_margin(const Gpu& gpu);
 // Returns the size of the largest square that a point can replace. That square plus the margin is
 // the largest point.

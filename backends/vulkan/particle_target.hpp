@@ -14,8 +14,8 @@ namespace triptych::vulkan_backend {
 // depths are equal, the sphere drawn first wins.
 [[nodiscard]] vk::CompareOp depth_compare(technique::ParticleFault fault);
 
-// Converts drawn depths, which are near/Z, to distances along the view axis; +inf if there is no
-// particle.
+// Converts the drawn depths, which are near/Z, to the distances Z along the view axis, or to
+// +infinity for pixels without a particle.
 void resolve_depth(core::Image& image, double near);
 
 // The render target for sprites: colour, ids and reversed depth.

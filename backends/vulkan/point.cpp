@@ -13,11 +13,11 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-// Returns whether a sphere may need a point that is larger than `largest` pixels. Its silhouette
-// extends by the angle α = asin(r/d) around its centre, which is at the angle φ from the view axis.
-// On the image plane, the interval from φ − α to φ + α has the width
-// tan(φ+α) − tan(φ−α) = sin 2α/(cos(φ+α)·cos(φ−α)). A pixel covers an angle of at least its size on
-// the image plane times the squared cosine of its angle from the view axis.
+// Returns whether a sphere may need a point that is larger than `largest` pixels. Its centre is at
+// the distance d from the eye and at the angle φ from the view axis. Its silhouette extends by the
+// angle α = asin(r/d) around the centre, where r is the radius. On the image plane at distance 1,
+// the interval from φ − α to φ + α has the width
+// tan(φ+α) − tan(φ−α) = sin 2α/(cos(φ+α)·cos(φ−α)).
 bool may_be_large(const scene::ParticleScene& scene, const std::array<float, 4>& sphere,
                   double largest) {
   const scene::Camera& camera = scene.camera;

@@ -83,9 +83,9 @@ void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
   if (work.camera_before) data_.look_from(work);
 }
 
-// Draws two frames, after which the set of hidden cells no longer changes. The first frame after a
-// jump of the camera draws everything that is visible. The second frame skips the hidden cells, and
-// all later frames do the same work as the second.
+// Draws two frames, after which the set of hidden cells (ranges of neighbouring particles) no
+// longer changes. The first frame after a jump of the camera draws everything that is visible. The
+// second frame skips the hidden cells, and all later frames do the same work as the second.
 void SpriteFrames::settle() const {
   for (int frame = 0; frame < 2; ++frame) {
     static_cast<void>(frames_.submit(measure::Purpose::timing));

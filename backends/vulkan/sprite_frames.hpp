@@ -31,13 +31,13 @@ struct SpriteDraw {
   // If true, a draw has four vertices per particle and no vertex buffer. Otherwise, it has one
   // vertex per particle.
   bool instanced = false;
-  // If true, the stages are task and mesh stages. The task stage culls cells itself, and there are
-  // no vertices.
+  // If true, the stages are task and mesh stages, and there are no vertices. The task stage culls
+  // the cells (ranges of neighbouring particles) itself.
   bool meshes = false;
   vk::PrimitiveTopology topology = vk::PrimitiveTopology::ePointList;
 };
 
-// A run of consecutive particles in the arrangement.
+// A run of consecutive particles in the order of technique::Arrangement.
 struct ParticleRun {
   std::uint32_t begin = 0;
   std::uint32_t count = 0;

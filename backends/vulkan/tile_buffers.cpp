@@ -12,7 +12,7 @@ namespace triptych::vulkan_backend {
 namespace {
 
 constexpr std::uint32_t tile_edge{technique::tile_edge};
-constexpr std::uint32_t block_edge = 4;  // TRI_BLOCK
+constexpr std::uint32_t block_edge = 4;  // in tiles; TRI_BLOCK
 constexpr vk::DeviceSize word = sizeof(std::uint32_t);
 constexpr vk::DeviceSize tile_bytes = 8 * word;
 constexpr vk::DeviceSize header_bytes = 8 * word;
@@ -30,15 +30,16 @@ Buffer words(const Gpu& gpu, vk::DeviceSize count) {
 }
 
 // Returns the size of the image in which each texel stores two pixels, one above the other. It has
-// a single texel if no large spheres are resolved.
+// a single texel if no pass before the last one draws large spheres.
 vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRounds& rounds) {
   if (!rounds.resolved()) return {1, 1, 1};
   return {static_cast<std::uint32_t>(scene.width),
           parts(static_cast<std::uint32_t>(scene.height), 2), 1};
 }
 
-// Returns 2 with injected extra work, because then a particle may be stored twice, and each entry
-// of a sphere may appear twice. Otherwise returns 1.
+// Returns the factor by which two buffers are enlarged: 2 with injected extra work, because then a
+// particle may be stored twice, and so may each of its entries (pairs of a tile and a sphere);
+// otherwise 1.
 std::uint64_t times(const measure::ParticleWork& work) {
   return work.options.extra_work_stride > 0 ? 2 : 1;
 }

@@ -1,5 +1,7 @@
 #pragma once
-// The buffers through which the passes of technique/particles/tiles.glsl exchange data.
+// The buffers through which the passes of technique/particles/tiles.glsl exchange data. The frame
+// is drawn in rounds, each of which processes a range of the particles. An entry is a pair of a
+// tile and a large sphere that overlaps it.
 
 #include <cstdint>
 #include <vector>
@@ -38,7 +40,8 @@ class TileBuffers {
   void bind(vk::DescriptorSet set) const;
   // Overwrites all data that a frame writes before it reads them.
   void poison() const;
-  // Clears the tiles. Also clears the pixels if any round draws into them.
+  // Clears the tiles. Also clears the pixels if there may be small spheres, because only small
+  // spheres are drawn into them.
   void clear(const vk::raii::CommandBuffer& commands) const;
   // Begins a round with no large spheres, no entries, and no tiles to draw into.
   void start_round(const vk::raii::CommandBuffer& commands) const;

@@ -1,6 +1,6 @@
 // Draws each small sphere in one invocation, and sorts large spheres into tiles in compute shaders.
-// The nearest hit of each pixel is selected by depth and then by the index in the arrangement
-// (technique/particles/tiles.glsl describes the passes).
+// The nearest hit of each pixel is selected by depth and then by the index in
+// technique::Arrangement (technique/particles/tiles.glsl describes the passes).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -75,8 +75,9 @@ class TilesFrames final : public measure::Prepared {
   Frames frames_;
 };
 
-// Divides the frame into rounds. Throws core::NotSupported if a single cell needs more entries than
-// a buffer can have.
+// Divides the frame into rounds, each of which processes a range of cells (ranges of neighbouring
+// particles). Throws core::NotSupported if a single cell needs more entries (pairs of a tile and a
+// large sphere) than a buffer can have.
 technique::TileRounds rounds_of(const Gpu& gpu, const measure::ParticleWork& work,
                                 const technique::Arrangement& arrangement) {
   // A dispatch has one work group per cell, all along one dimension. Every device supports this
@@ -157,8 +158,8 @@ void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelin
   barrier(commands);
 }
 
-// Draws the round's large spheres, unless the final pass draws them, and records which parts of the
-// image are hidden.
+// Draws the round's large spheres, unless the final pass draws them, and computes the farthest
+// depth of each tile.
 void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                           const technique::TileRound& round) const {
   const Label label(gpu_, commands, "tiles: list, fill and resolve");

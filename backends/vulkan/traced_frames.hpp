@@ -50,8 +50,8 @@ class Tracer {
   virtual void prepare(const Layout& layout, vk::DescriptorSet set) = 0;
   // Creates the pipelines of the counting build.
   virtual void prepare_counting(const Layout& layout) = 0;
-  // Records a frame up to the point where every pixel has its key. The descriptor set must be
-  // bound.
+  // Records a frame up to the point where each pixel has the keys of its nearest sphere, which
+  // encode the depth and the particle (keys.glsl). The descriptor set must be bound.
   virtual void record(const vk::raii::CommandBuffer& commands, const Layout& layout,
                       bool counting) const = 0;
   // Returns the device code of the timed build.

@@ -53,8 +53,9 @@ technique::Cut cut_of(const Gpu& gpu, std::string_view technique, const measure:
   if (technique::has_long_rays(work.scene)) {
     return {.parts = {}, .reason = std::string(technique::long_rays_in_parts)};
   }
-  // The shader needs storage buffers for the output, the counters and the pauses and, unless they
-  // are read as texels, for the bricks and the quadrature.
+  // The shader needs storage buffers for the output, the counters and the pauses (states that rays
+  // keep from one part to the next). It needs two more for the bricks and the quadrature, unless it
+  // reads these as texels.
   const std::uint32_t needed = is_packed(work) ? 3 : 5;
   const std::uint32_t most = gpu.properties.limits.maxPerStageDescriptorStorageBuffers;
   if (needed > most) {

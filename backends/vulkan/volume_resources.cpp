@@ -19,7 +19,7 @@ namespace triptych::vulkan_backend {
 namespace {
 
 constexpr std::uint32_t pass_count = 2;
-constexpr std::uint32_t storage_buffers = 5;  // bricks, output, counters, quadrature, pauses
+constexpr std::uint32_t storage_buffers = 5;  // bricks, output, counters, quadrature, paused rays
 constexpr std::uint32_t texel_buffers = 4;    // cells, table, bricks, quadrature
 // The usage flags that allow shaders to read bricks and the quadrature either as storage buffers or
 // as texels.
@@ -39,8 +39,9 @@ Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
   return image;
 }
 
-// Creates a buffer for `held` cells, which the host writes before they are read. If `held` is 0,
-// the buffer has the cells of the whole volume.
+// Creates a buffer for packed cells, each of which stores the eight voxels around a position
+// (packed_cells.hpp). If `held` is 0, the buffer contains the cells of the whole volume. Otherwise,
+// it has space for `held` layers of cells along z, which the host writes before they are read.
 Buffer make_cells(const Gpu& gpu, const measure::VolumeWork& work, int held) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   constexpr auto usage = vk::BufferUsageFlagBits::eUniformTexelBuffer;

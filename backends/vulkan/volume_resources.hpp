@@ -90,7 +90,8 @@ class VolumeResources {
     vk::raii::BufferView bricks_view;
     vk::raii::BufferView quadrature_view;
   };
-  // `held` is the number of cells of the largest part; 0 means that the whole volume is uploaded.
+  // `held` is the number of layers of cells along z in the largest part; 0 means that the whole
+  // volume is uploaded.
   [[nodiscard]] Images make_images(const measure::VolumeWork& work, int held) const;
   [[nodiscard]] Texels make_texels(const measure::VolumeWork& work, int held) const;
   [[nodiscard]] Buffer make_parameters(const measure::VolumeWork& work,
@@ -105,7 +106,7 @@ class VolumeResources {
   Buffer bricks_;
   Buffer quadrature_;
   std::optional<VolumeParts> parts_;
-  std::optional<Buffer> pauses_;  // the states of the rays between two parts
+  std::optional<Buffer> pauses_;  // the states that rays keep from one part to the next
   Buffer parameters_;
   std::optional<Images> images_;
   std::optional<Texels> texels_;

@@ -1,5 +1,5 @@
-// Samples a square image of `size` texels in one mip level, at coordinates from -1 to 3 (in units
-// of the image size).
+// Samples one mip level of a square image, at coordinates from -1 to 3 (in units of the image
+// size).
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform sampler2D texels;
 layout(std430, binding = 0) writeonly buffer Values { float values[]; };

@@ -1,5 +1,6 @@
 #version 450
-// Samples a square image of `edge` texels at coordinates from -1 to 3 (in units of the image size).
+// Samples a square image with `edge` texels per side, at coordinates from -1 to 3 (in units of the
+// image size).
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 0) uniform sampler2D texels;
 layout(std430, set = 0, binding = 1) writeonly buffer Values { float values[]; };
