@@ -15,8 +15,9 @@ namespace triptych::gl_backend {
 [[nodiscard]] double largest_point(const Api& gl);
 
 // Returns the cells of the arrangement, which are ranges of neighbouring particles. Cells in which
-// every sphere fits into the largest point get a particle count of 0. The technique `point` draws
-// the other cells a second time, as quads. The result stays valid because the camera does not move.
+// every sphere fits into the largest point get a particle count of 0. In a second draw, the
+// technique `point` draws the large spheres of the other cells as quads. The result stays valid
+// because the camera does not move.
 [[nodiscard]] std::vector<technique::Cell> cells_with_large_points(
     const Api& gl, const scene::ParticleScene& scene, const technique::Arrangement& arrangement);
 

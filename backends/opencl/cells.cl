@@ -1,4 +1,5 @@
-// The quadrature `cells`, with one ray per work item. The algorithm is explained in
+// The quadrature `cells`, which integrates each ray cell by cell, with one ray per work item. A
+// cell is the space between eight voxel centres. The algorithm is explained in
 // src/technique/volume/raycast/raycast_cells.glsl.
 //
 // Compile-time constants: TRI_SHADING, TRI_COUNT, and those of volume.cl.
@@ -257,7 +258,8 @@ typedef struct {
 #define TRI_PAUSES
 #endif
 
-// Writes the image, the counters and the pauses as the kernel in raycast.cl does.
+// Writes the image, the counters and the pauses (the states of rays that continue in the next part
+// of the volume) as the kernel in raycast.cl does.
 __kernel void raycast(__constant Parameters* u, TRI_VOLUME volume, __constant float4* table,
                       __global const int* brick_map, __global float4* image,
                       __global uint* counters, __global const float4* kinks TRI_PAUSES) {

@@ -1,8 +1,9 @@
-// Sorts the particles of the listed cells into bins, in the order of the arrangement. A bin is a
-// tile of the image or, for particles that overlap more than TRI_MOST_TILES tiles, a coarse tile of
-// 8×8 tiles. The coarse bins follow the fine bins. Each of `chunks` work items processes a range of
-// the listed cells and has its own counts, so that no atomics are needed and the order is
-// preserved.
+// Sorts the particles of the listed cells (ranges of neighbouring particles) into bins, and
+// preserves their order (technique::Arrangement). A bin is a tile of the image or, for particles
+// that overlap more than TRI_MOST_TILES tiles, a coarse tile of 8×8 tiles. The coarse bins follow
+// the fine bins. Each particle in a bin is an entry of the bin. Each of `chunks` work items
+// processes a range of the listed cells (a chunk) and has its own counts, so that no atomics are
+// needed and the order is preserved.
 
 // Counts the bins that one particle overlaps, or writes the particle into them.
 TRI_FN void into_bins(uint first, uint last, int across, int down, bool fill, uint particle,

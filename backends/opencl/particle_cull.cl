@@ -1,4 +1,5 @@
-// Creates an ordered list of the visible cells, with the same test as cull.comp.glsl.
+// Creates an ordered list of the visible cells (ranges of neighbouring particles), with the same
+// test as cull.comp.glsl.
 
 TRI_FN bool beyond(float nx, float ny, float nz, const float* lo, const float* hi) {
   float lx = nx * lo[0], hx = nx * hi[0];

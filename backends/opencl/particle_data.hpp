@@ -1,5 +1,5 @@
 #pragma once
-// The data of particles on the device, in the order of the arrangement.
+// The data of particles on the device, in the order of technique::Arrangement.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,7 @@
-// The passes that compute vertices, for techniques that use separate stages for this with the other
-// APIs. Each pass goes through the listed cells in the same way as binning. The binning and tile
-// passes then read the vertices.
+// The passes that compute vertices, for the techniques that have separate shader stages for this
+// purpose with the other APIs. Each pass goes through the listed cells (ranges of neighbouring
+// particles) in the same way as the binning pass (particle_bins.cl). The binning and tile passes
+// then read the vertices.
 
 TRI_FN float4 in_camera_space(const Particles* u, float4 s) {
   return (float4)(camera_x(u, s.x, s.y, s.z), camera_y(u, s.x, s.y, s.z), camera_z(u, s.x, s.y, s.z), s.w);

@@ -61,7 +61,7 @@ std::optional<std::string> particle_defect(const Session& session, std::string_v
   // quad_tess stores more data per particle in its passes than any other technique: 28 words. Every
   // technique also stores for each particle the sphere in world and in camera space, the rectangle,
   // the colour and the id. For each pixel, it stores the image, the id and, for each pass, the
-  // depth and the winner. Each pass also has a table of entry counts.
+  // depth and the index of the visible particle. Each pass also has a BinTable.
   const std::uint64_t passes = work.options.extra_work_stride > 0 ? 2 : 1;
   const std::uint64_t all =
       (16 + 16 + 8 + 16 + 4 + 4 * 28) * count + 20 * pixels + passes * (8 * pixels + table);

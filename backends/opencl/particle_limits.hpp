@@ -9,8 +9,10 @@
 
 namespace triptych::opencl_backend {
 
-// The table that counts the entries of bins. It has one number for each pair of a bin and a work
-// item; a work item processes one chunk of the cells.
+// The table that counts the entries of bins. A bin is a tile or a coarse tile, and its entries are
+// the particles that overlap it. The table has one number for each pair of a bin and a work item.
+// Each work item processes one chunk (a range) of the cells, which are ranges of neighbouring
+// particles.
 struct BinTable {
   std::size_t bins = 0;  // the number of tiles and coarse tiles of an image
   std::size_t chunks = 0;

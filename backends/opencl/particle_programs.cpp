@@ -82,8 +82,8 @@ ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite)
           .transfer_at_pixel = no_vertices || options.transfer == technique::ComputedAt::pixel ||
                                work.scene.particles->colour != scene::ColourKind::intensity,
           .ray_at_vertex = options.ray == technique::ComputedAt::vertex,
-          // Techniques without vertices have no depth unit to imitate, so their tiles always reject
-          // hidden particles early.
+          // Techniques without vertices do not imitate the depth test of a rasterizer, so their
+          // tiles always reject hidden particles early.
           .conservative_depth = no_vertices || options.conservative_depth,
           .fault = options.fault};
 }

@@ -1,5 +1,5 @@
-// Computes the position at which the entries of each bin begin from the number of entries in each
-// bin.
+// Computes where the entries of each bin begin, from the number of entries in each bin. A bin is a
+// tile or a coarse tile, and its entries are the particles that overlap it (particle_bins.cl).
 
 // Runs one work item per bin. Replaces counts by positions within the bin, and writes the length of
 // the bin to totals[bin].

@@ -1,7 +1,7 @@
-// Generates sprites like sprite.glsl: first the frame at the centre, then the corners in clip
-// space, which are clipped and projected to the grid of the rasterizer. Depth need not be computed
-// here, because with an infinite far plane, z is `near` at every corner, and w is the distance
-// along the view axis.
+// Generates sprites like sprite.glsl: first the coordinate frame at the sphere's centre, then the
+// corners in clip space, which are clipped and projected to the grid of the rasterizer. Depth need
+// not be computed here, because with an infinite far plane, z is `near` at every corner, and w is
+// the distance along the view axis.
 
 #define TRI_SCREEN_QUAD 1
 #define TRI_RAY_QUAD 2
@@ -35,8 +35,9 @@ typedef struct {
   float w[TRI_MOST_CORNERS];
 } Outline;
 
-// The rays of one triangle: the position on the image plane for the first corner of the image, and
-// how much it changes per 1/256 pixel to the right and down.
+// The rays of one triangle, as a linear function of the position on the screen: `origin` is where
+// the ray of the upper left corner of the image intersects the image plane, and `right` and `down`
+// are the changes per 1/256 pixel in these directions.
 typedef struct {
   float2 right;
   float2 down;
@@ -108,8 +109,8 @@ TRI_FN void screen_outline(const Particles* u, float4 sphere, Outline* outline) 
   float2 y = covered(sphere.y, sphere.z, sphere.w, u->plane.w, u->eye_rest.w);
   float2 low = (float2)(max(x.x, 0.0f - u->plane.x), max(y.x, 0.0f - u->plane.y));
   float2 high = (float2)(min(x.y, u->plane.x), min(y.y, u->plane.y));
-  // As in the paper, the sprite of a sphere that intersects the plane of the eye covers the whole
-  // viewport.
+  // As in the paper (docs/paper.md), the sprite of a sphere that intersects the plane of the eye
+  // covers the whole viewport.
   if (tri_eye_plane(sphere.z, sphere.w) == 1) {
     high = (float2)(u->plane.x, u->plane.y);
     low = -high;

@@ -81,8 +81,8 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
             .entries = make_buffer(0),
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
-  // The buffers are made large enough for all visible cells regardless of the stride, because later
-  // passes draw fewer cells, but not always the same cells.
+  // The buffers are made large enough for all visible cells (ranges of neighbouring particles)
+  // regardless of the stride, because later passes draw fewer cells, but not always the same cells.
   Pass whole = pass;
   whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};

@@ -1,7 +1,7 @@
 #pragma once
 // The stages of a particle frame as kernel launches, and the data that they share on the device:
 //
-//   cull_cells                      finds the cells that are in view
+//   cull_cells                      finds the cells (ranges of neighbouring particles) in view
 //   expand_sprites; control_patches, evaluate_patches; project_points
 //                                   compute the vertices of some techniques, in each pass
 //   list_cells, count_bins, place_chunks, place_bins, fill_bins, draw_tiles

@@ -1,5 +1,6 @@
-// Runs one work item per tile, which draws the tile's entries into the tile's pixels. The nearest
-// surface is visible. If depths are equal, the particle that comes first in the arrangement wins.
+// Runs one work item per tile, which draws the tile's entries (the particles that overlap the tile)
+// into the tile's pixels. The nearest surface is visible. If depths are equal, the particle that
+// comes first in technique::Arrangement wins.
 
 // The number of pixels that are tested together. Pixels outside of a row's range are masked. Every
 // row is stored with a margin at its end, for the pixels beyond the tile.
@@ -72,8 +73,9 @@ TRI_FN void look_for_farthest(float near, Tile* tile) {
 }
 
 // Returns whether no part of the sphere can be visible in the tile, because the front of the sphere
-// is farther away than every surface that is stored. The distances must differ by more than their
-// rounding errors (24·2⁻²⁴ of |c| + r, where |c| is at most the sum used here).
+// is farther away than every surface that is stored. c contains the centre and the radius r. Both
+// distances have a rounding error of up to 24·2⁻²⁴ of |c| + r, which is at most `size`, so they
+// must differ by more than the sum of the two errors.
 TRI_FN bool hidden(const Tile* tile, float4 c) {
 #if TRI_REVERSED_DEPTH || !TRI_CONSERVATIVE_DEPTH
   return false;

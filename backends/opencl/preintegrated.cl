@@ -4,8 +4,8 @@
 #if TRI_PRECISION == 32
 
 // Composites a piece of the step behind `gathered`, which is premultiplied colour and opacity.
-// `depth` is the optical depth of the piece in powers of two. a0 … a2 are the coefficients of its
-// colour as a quadratic function of the fraction of that depth.
+// `depth` is the optical depth of the piece, whose opacity is 1 − 2^−depth. a0 … a2 are the
+// coefficients of its colour as a quadratic function of the fraction of that depth.
 TRI_FN float4 with_piece(float4 gathered, float depth, float3 a0, float3 a1, float3 a2) {
   float opacity = tri_1m_exp2(-depth);
   float z = 0.3465735903f * depth;
@@ -19,8 +19,9 @@ TRI_FN float4 with_piece(float4 gathered, float depth, float3 a0, float3 a1, flo
   return depth > 0.0f ? gathered + weight * (float4)(colour, 1.0f) : gathered;
 }
 
-// Composites the piece between positions a and b in the table, both within the cell that begins
-// with entry `cell`. The function is constant before the first entry and after the last.
+// Composites the piece between positions a and b in the table of the transfer function. Both are in
+// the cell (the interval between two adjacent entries) that begins with entry `cell`. The function
+// is constant before the first entry and after the last.
 TRI_FN float4 with_part_of_cell(__constant float4* table, float4 gathered, int cell, float a, float b,
                                 float length) {
   float4 lower = table[cell > 0 ? cell : 0];
@@ -40,10 +41,10 @@ TRI_FN bool are_too_deep(__global const float4* pairs, int first, int last, floa
   return abs(last - first) > 1 && per_cell * pairs[3 * (256 * first + last)].x > TRI_DEEPEST_CHUNK;
 }
 
-// Returns the entry up to which cells are processed in one chunk, if the optical depth of all
-// remaining cells exceeds TRI_DEEPEST_CHUNK. Starts with the number of cells that would reach this
-// depth if all cells were equally deep, and halves the number until the chunk is not too deep. A
-// chunk contains at least one cell.
+// Returns the entry at which the next chunk ends, if the optical depth of all remaining cells
+// exceeds TRI_DEEPEST_CHUNK. A chunk consists of consecutive cells that are composited as one
+// piece. Starts with the number of cells that would reach this depth if all cells were equally
+// deep, and halves the number until the chunk is not too deep. A chunk contains at least one cell.
 TRI_FN int end_of_chunk(__global const float4* pairs, int first, int last, float per_cell) {
   int direction = last > first ? 1 : -1;
   float share = TRI_DEEPEST_CHUNK / (per_cell * pairs[3 * (256 * first + last)].x);

@@ -75,8 +75,9 @@ TRI_FN real trilinear(TRI_VOLUME v, int row, int slice, real fx, real fy, real f
 }
 #endif
 
-// Returns where the device stores the cell's layer along z. If another part contains the cell, the
-// result is clamped, and what is read there is not used.
+// Returns the index of the layer that stores a cell on the device. `cell` is the cell's index along
+// z (technique::Part). If another part of the volume contains the cell, the result is clamped, and
+// the values that are read there are not used.
 TRI_FN int held_layer(__constant Parameters* u, int cell) {
 #if TRI_PARTS
   return clamp(cell - u->part.z, 0, u->part.w - 1);

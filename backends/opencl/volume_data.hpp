@@ -20,8 +20,8 @@ namespace triptych::opencl_backend {
                                                           scene::VoxelFormat voxel);
 
 // Returns the layers of the buffer that the manual sampler reads. The buffer contains the volume
-// with a border on every side that repeats the outermost layer. Cell c lies between slices c and c
-// + 1 of the buffer.
+// with a border on every side that repeats the outermost layer. Cells are counted along z: cell c
+// lies between the slices c and c + 1 of the buffer.
 [[nodiscard]] technique::Layers bordered_layers(const scene::VoxelGrid& grid);
 // Writes `cells` cells, beginning with cell `first` of the volume, to the beginning of a buffer
 // with the layout of bordered_layers(). Throws cl::Error.

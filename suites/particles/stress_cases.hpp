@@ -4,10 +4,11 @@
 // its own camera and viewport, which are used if the factors `camera`, `fov` and `viewport` have
 // the level `own`.
 //
-// In every image, each pixel that is certain (reference/spheres.hpp) must show the same particle as
-// the reference image, with depth and colour within the bounds of tolerance.hpp. Any other pixel
-// must show one of the colours that are possible there. Each case states why single precision is
-// sufficient for this, and what else is expected.
+// A pixel is certain if every device must show the same particle there, whatever its rounding
+// errors are (reference/spheres.hpp). In every image, each certain pixel must show the same
+// particle as the reference image, with depth and colour within the bounds of tolerance.hpp. Any
+// other pixel must show one of the colours that rounding errors make possible there. Each case
+// states why single precision is sufficient for this, and what else is expected.
 
 #include <optional>
 #include <string>

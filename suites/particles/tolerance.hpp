@@ -38,14 +38,15 @@ namespace triptych::particles_suite {
 //   - The error of the discriminant D is the lateral error above. Taking the square root √D adds
 //     5u.
 //   - The difference b − √D adds u, the division by q adds 5u, and q itself 3u. The reversed depth
-//     near/Z adds 5u, and its conversion back to a distance adds u. The total is 24u.
+//     near/Z of the distance Z along the view axis adds 5u, and its conversion back to a distance
+//     adds u. The total is 24u.
 //
 // 4. Error of the colour, relative to full scale.
 //   - cosine = √(D/q)/r: 5u for each of the two divisions, 5u for the square root, and 2u from q.
 //   - Light: a product and a sum, 2u.
 //   - The particle's colour: byte/255 has an error of 5u. A colour from the transfer function has
-//     3u from the interpolation. It also has the error of its position in the table, 3u of
-//     position·256, times the slope of the table; the 256u below cover this.
+//     3u from the interpolation. Its position in the table, 256·x − ½, is rounded once, which moves
+//     it by up to 256u entries. The colour changes by at most 1 per entry, so this adds 256u.
 //   - The product of light and colour adds u. The total is below 32u, or below 32u + 256u for an
 //     intensity.
 [[nodiscard]] reference::SphereErrorModel error_model(const scene::ParticleScene& scene,

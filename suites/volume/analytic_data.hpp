@@ -23,7 +23,7 @@ struct AnalyticData {
 inline constexpr std::string_view own_transfer_function = "own";
 
 // Returns nullopt if `data` does not name an analytic problem. Throws InputError if the problem is
-// unknown, if the size is outside 2…512, or if the size of v6_layers is odd.
+// unknown, if the size is outside 2…512, or if the problem is v6_layers and the size is odd.
 [[nodiscard]] std::optional<AnalyticData> analytic_data(std::string_view data);
 
 [[nodiscard]] scene::Volume analytic_volume(const AnalyticData& data);

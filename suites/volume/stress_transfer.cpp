@@ -124,7 +124,7 @@ StressScene stress_end_spike(std::string_view variant) {
 }
 
 // Opacity is linear along the ray, with a slope that tends to 0. The closed-form solution of such a
-// segment (V3) divides by the square root of the slope.
+// segment (analytic problem v3_segment) divides by the square root of the slope.
 StressScene stress_slope(std::string_view variant) {
   double slope = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), slope);

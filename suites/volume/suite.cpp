@@ -140,7 +140,7 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
   };
 }
 
-// Returns the budget in bytes, or 0 if there is none.
+// Returns the memory budget for voxels in bytes, or 0 if there is none.
 std::uint64_t budget_of(const measure::Configuration& configuration) {
   if (configuration.at("budget") == no_budget) return 0;
   return static_cast<std::uint64_t>(measure::as_number(configuration, "budget") * (1U << 20U));
@@ -324,7 +324,7 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
   if (configuration.at("skip") == "distance") {
     result.insert(result.end(), stress->when_leaping.begin(), stress->when_leaping.end());
   }
-  // With merged samples, the images are close but not bit-identical.
+  // If samples are merged (factor `adapt`), the images are close but not bit-identical.
   if (levels_of(configuration, stress).adapt() > 0) return result;
   result.push_back({"an image that is bit-identical to the image without skipping",
                     record::SamePicture{.changed = {{"skip", "none"}}}});

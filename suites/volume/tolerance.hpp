@@ -30,6 +30,9 @@ struct PathPrecision {
 //   T    distance from the eye to the farthest corner of the faces that the eye sees, through which
 //        rays enter; 0 if the eye is inside
 //   L    diagonal of the box
+//   v    direction of the ray, divided by the spacing
+//   h    length of a step; g = v·h is one step in voxels
+//   t₀   distance from the eye at which the ray enters the box; t₁ is where it leaves the box
 // D, T and L are in units of the smallest spacing. The error of a direction is relative to its
 // whole length, regardless of the spacing along the axis on which the error moves a sample.
 //   - Eye: eye/spacing is rounded once, u·|e|.
@@ -41,9 +44,9 @@ struct PathPrecision {
 //     later, which moves all its samples along the ray. The reference renderer accounts for this
 //     (reference/ray.hpp), so it is not counted here a second time.
 //   - Distance along the ray: the entry t₀ = (face − e)/v is a subtraction and a division, 6u·t₀.
-//     In e + t₀·v, the product adds u·t₀|v| and the sum u·L. A sample adds (i+½)·g with g = v·h,
-//     which has an error of 3u of the distance inside the box, and another u·L for the sum. The
-//     total is 7u·T + 5u·L.
+//     In e + t₀·v, the product adds u·t₀|v| and the sum u·L. A sample with the index i adds
+//     (i+½)·g, which has an error of 3u of the distance inside the box, and another u·L for the
+//     sum. The total is 7u·T + 5u·L.
 //   - Length of the chord: (t₁ − t₀)/h has an error of 6u·(t₁ + t₀)|v| + 7u·L. The reference
 //     renderer moves both ends of the chord by the position error, so half of this error is
 //     sufficient here. With t₁|v| ≤ D ≤ T + L, it is 6u·T + 6½u·L.
@@ -78,11 +81,11 @@ struct PathPrecision {
 // both errors together. Its result is therefore also used as an absolute error of the value.
 //
 // 5. Table. Interpolation between two entries has an error of 3u. With quadrature=preintegrated, it
-// is 4u, because the opacity in the middle of a part of a cell is rounded once more.
+// is 4u, because the opacity in the middle of a piece between two entries is rounded once more.
 //
 // 6. Opacity, relative.
 //   - Midpoint: tri_opacity is accurate to 8u, the two factors of its exponent contribute 2u each,
-//     and the share of the step contributes 2u. The sum is 14u.
+//     and the share of a whole step that the sample covers contributes 2u. The sum is 14u.
 //   - Preintegrated: the mean of the logarithm contributes 8u, and its series 3u. The length of a
 //     piece contributes 2u for the share, 4u for the division by the difference of two positions
 //     and 2u for the product. The exponential contributes 8u. Combining three pieces adds u each
@@ -91,10 +94,11 @@ struct PathPrecision {
 //     exponential 3u. The lengths contribute the same once more, because their differences cancel
 //     from piece to piece. The total is below 32u.
 //
-// 7. Adapt. technique/volume/brick_kinds.hpp derives the difference between two images from one
-// device, with and without merged bricks. All other terms apply to the image without merged bricks.
-// They also cover the arithmetic of a merged sample, because the exponent of its opacity has the
-// same two factors, and because it replaces many samples.
+// 7. Merged samples (factor `adapt`). technique/volume/brick_kinds.hpp derives the difference
+// between two images from one device, with and without merging the samples of bricks. All other
+// terms apply to the image without merging. They also cover the arithmetic of a merged sample,
+// because the exponent of its opacity has the same two factors, and because it replaces many
+// samples.
 //
 // 8. Compositing, relative per sample. The weight, a product, a sum and the transmittance
 // contribute u each: 4u.
