@@ -1,6 +1,6 @@
 #pragma once
-// What all contract tests begin with: the backend, and a loop that opens each of its devices, one
-// after another.
+// Opens the backend under test and loops over its devices, one after another. All contract tests
+// begin with this.
 
 #include <gtest/gtest.h>
 

@@ -26,8 +26,10 @@ Function* real(const char* name) {
 
 std::mutex mutex;
 std::map<cl_kernel, int> launches;
-std::set<cl_event> abnormal;  // never removed, because a reused handle also belongs to a launch
-std::set<cl_event> late;      // launches whose event nobody has waited for
+// Events of launches that end abnormally. They are never removed, because a driver that reuses the
+// handle of a released event also uses it for such a launch.
+std::set<cl_event> abnormal;
+std::set<cl_event> late;  // events of launches for which nobody has waited
 
 // Returns whether the fault affects this launch of a kernel. It affects every launch except the
 // first.

@@ -79,8 +79,8 @@ TEST(VulkanDevices, TheDefaultPathFiltersExactly) {
       EXPECT_EQ(device.filter_weight_error({native, Sampler::manual}), 0);
     }
     if (device.info().driver != "llvmpipe") return;
-    // Among the exact samplers, cells of eight voxels are the fastest, but only for volumes of up
-    // to a gigabyte.
+    // The sampler `packed`, which loads cells of eight voxels, is the fastest exact sampler, but it
+    // is used only for volumes of up to a gigabyte.
     EXPECT_EQ(device.default_path({VoxelFormat::u8}).sampler, Sampler::packed);
     EXPECT_EQ(device.default_path({VoxelFormat::u8}).voxel, VoxelFormat::u8);
     for (const measure::VolumeKind& other :

@@ -242,8 +242,8 @@ TEST(Sequential, LooksFollowOneAnother) {
   const SequentialDesign design = SequentialDesign::standard();
   EXPECT_EQ(design.next_look(0), 12);
   EXPECT_EQ(design.next_look(12), 24);
-  // If a time budget ends the measurement between two looks, the data so far are evaluated at the
-  // later of the two.
+  // A look is an evaluation of the data measured so far. If a time budget ends the measurement
+  // between two looks, the data are evaluated as at the later of the two.
   EXPECT_EQ(design.next_look(20), 24);
   EXPECT_EQ(design.next_look(384), 0);
   EXPECT_NEAR(design.alpha_of_a_look(), 0.01 / 6, 1e-15);

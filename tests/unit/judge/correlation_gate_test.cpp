@@ -180,10 +180,10 @@ Trials new_devices(const CorrelationWorld::Change& injected, const std::string& 
   return trials;
 }
 
-// q permits one false report in 100 trials on average, so four would indicate a fault. If the
-// scatter is normally distributed with 2 %, a slowdown of 10 % is 4.8 standard deviations. To keep
-// 99 % of the reports correct, 4 standard deviations are required. With a scatter of 1.5 %, almost
-// all slowdowns are found.
+// The false discovery rate permits one false report in 100 trials on average, so four would
+// indicate a fault. If the scatter is normally distributed with a standard deviation of 2 %, a
+// slowdown of 10 % is 4.8 standard deviations. To keep 99 % of the reports correct, 4 standard
+// deviations are required. With a scatter of 1.5 %, almost all slowdowns are found.
 TEST(NewDevice, TenPercentOfOneConfiguration) {
   const Trials wide = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
   EXPECT_GE(wide.found, 60);

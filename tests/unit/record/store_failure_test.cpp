@@ -295,7 +295,7 @@ TEST_F(StoreTest, KilledWriterLosesAtMostTheRecordInFlight) {
     store.add_run(sample_run());
     for (int i = 0;; ++i) {
       store.add_record(sample_record(std::to_string(i)));
-      // Tells the parent that record i is stored.
+      // Reports to the parent process that record i is stored.
       if (write(ends[1], &i, sizeof i) != sizeof i) std::_Exit(1);
     }
   }

@@ -91,7 +91,7 @@ TEST(Bricks, AnyIsEmptyAgreesWithTheVisibilityOfAll) {
       with_empty += empty ? 1 : 0;
     }
   }
-  // Both results must have occurred often enough.
+  // Both cases, with and without an empty brick, must have occurred often enough.
   EXPECT_GT(with_empty, trials / 10);
   EXPECT_LT(with_empty, 2 * trials - trials / 10);
 }
