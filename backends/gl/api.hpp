@@ -28,9 +28,9 @@ struct Api : GladGLContext {
   // Enables labels if the driver supports them (KHR_debug).
   void label_all() { labelled = PushDebugGroup != nullptr && ObjectLabel != nullptr; }
 
-  // Prepares the context for a device that only compiles. After this call, functions that would
-  // execute work on the device throw core::NotSupported, and no data are uploaded. Objects are
-  // still created, so that programs can be linked.
+  // Prepares the context for a device that only compiles, because its GPU is not present. After
+  // this call, functions that would execute work on the device throw core::NotSupported, and no
+  // data are uploaded. Objects are still created, so that programs can be linked.
   void only_compile();
   [[nodiscard]] bool executes() const { return executes_; }
 

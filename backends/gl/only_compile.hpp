@@ -1,5 +1,5 @@
 #pragma once
-// Guards for devices that only compile.
+// Guards for devices that only compile: the driver generates code for a GPU that is not present.
 
 #include <glad/gl.h>
 

@@ -38,9 +38,10 @@ decltype(auto) checked(Call&& call, core::CodePlace place = core::CodePlace::cur
   }
 }
 
-// A command queue. On a device that only compiles, commands that execute work or read results throw
-// core::NotSupported, and commands that upload data do nothing. The backend enqueues all commands
-// through this class, whose functions have the same names as those of cl::CommandQueue.
+// A command queue. On a device that only compiles, because its GPU is not present, commands that
+// execute work or read results throw core::NotSupported, and commands that upload data do nothing.
+// The backend enqueues all commands through this class, whose functions have the same names as
+// those of cl::CommandQueue.
 class Queue {
  public:
   Queue(cl::CommandQueue queue, bool executes = true)  // NOLINT: implicit

@@ -26,8 +26,8 @@ struct ShadedPicture {
 
 class ParticleFrames final : public measure::Prepared {
  public:
-  // Compiles the timed build and uploads everything. The counting build is compiled when it is
-  // first needed. `programs` must outlive this object.
+  // Compiles the timed build and uploads everything. The counting build, whose kernels also count
+  // their work, is compiled when it is first needed. `programs` must outlive this object.
   ParticleFrames(const Session& session, Programs& programs, const measure::ParticleWork& work,
                  Sprite sprite);
 

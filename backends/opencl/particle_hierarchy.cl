@@ -29,9 +29,11 @@ __kernel void find_places(float4 origin, uint4 shape, __global const float* rest
   sorted[i] = (uint2)((uint)place, i);
 }
 
-// Runs one work item per run of particles, which counts the particles with each digit. A digit
-// consists of the eight bits that begin at bit `shift`. `from` is the index at which the list
-// begins.
+// One pass of a radix sort consists of this kernel and the next two kernels. `sorted` contains two
+// lists; a pass moves the particles from the list that begins at index `from` to the other list.
+// This kernel runs one work item per run of particles, which counts the particles with each digit.
+// A digit consists of the eight bits of a particle's position on the curve that begin at bit
+// `shift`.
 __kernel void count_digits(uint4 shape, uint shift, uint from, __global const uint2* restrict sorted,
                            __global uint* restrict scratch) {
   uint run = (uint)get_global_id(0);
@@ -56,8 +58,8 @@ __kernel void place_digits(uint runs, __global uint* restrict scratch) {
   }
 }
 
-// Runs one work item per run, which moves the particles of the run to their places in the other
-// list.
+// Runs one work item per run, which moves the particles of the run to their places in the other of
+// the two lists.
 __kernel void move_to_places(uint4 shape, uint shift, uint from, __global uint2* restrict sorted,
                              __global const uint* restrict scratch) {
   uint run = (uint)get_global_id(0);

@@ -44,8 +44,8 @@ vk::PipelineDepthStencilStateCreateInfo depth_state(std::optional<vk::CompareOp>
           .depthCompareOp = compare.value_or(vk::CompareOp::eAlways)};
 }
 
-// Returns the complete key. Every property that is not part of the key is the same for all
-// pipelines.
+// Returns the key under which Pipelines stores a pipeline. Every property that is not part of the
+// key is the same for all pipelines.
 std::string key_of(const DrawState& state, const Layout& layout, const Specialization& constants) {
   std::vector<std::string_view> codes;
   std::string text;

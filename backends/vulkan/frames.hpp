@@ -18,7 +18,7 @@ class Frames {
   void record_counters(const Recording& counting);
 
   // Submits the commands for this purpose, and fills in times and statistics. The caller reads the
-  // counters that the counting build has written.
+  // counters, which the shaders of the counting build have written.
   [[nodiscard]] measure::Frame submit(measure::Purpose purpose) const;
 
  private:

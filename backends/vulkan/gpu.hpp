@@ -57,8 +57,8 @@ struct Gpu {
 };
 
 // Opens a device. `labelled` is true if the instance has VK_EXT_debug_utils and names were
-// requested. `executes` is false for a device that only compiles. Throws core::NotSupported if the
-// device has no queue for compute work, and vk::SystemError.
+// requested. `executes` is false for a device that only compiles, because its GPU is not present.
+// Throws core::NotSupported if the device has no queue for compute work, and vk::SystemError.
 [[nodiscard]] Gpu open_gpu(const vk::raii::PhysicalDevice& physical, bool labelled = false,
                            bool executes = true);
 

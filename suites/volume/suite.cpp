@@ -146,11 +146,11 @@ std::uint64_t budget_of(const measure::Configuration& configuration) {
   return static_cast<std::uint64_t>(measure::as_number(configuration, "budget") * (1U << 20U));
 }
 
-// Returns the device's default path, but without the hardware sampler in three cases. With
-// precision=fp64, a hardware sampler would not interpolate in double precision; in addition,
-// integers are not stored as floats, because that would round them. quadrature=cells needs no
-// sampler. In a volume that is drawn in parts, a hardware sampler would round differently than in
-// the whole volume.
+// Returns the voxel format and the sampler that the device uses by default, but without the
+// hardware sampler in three cases. With precision=fp64, a hardware sampler would not interpolate in
+// double precision; in addition, integers are not stored as floats, because that would round them.
+// quadrature=cells needs no sampler. In a volume that is drawn in parts, a hardware sampler would
+// round differently than in the whole volume.
 measure::VolumePath default_path(const measure::Device& device, measure::VolumeKind volume,
                                  const measure::Configuration& configuration,
                                  scene::Quadrature quadrature) {
