@@ -24,10 +24,11 @@ const std::vector<Entry>& entries() {
         {"unit", "small", "large"}}, stress_scale},
       {{34, "far", "the eye is 10^3 to 2*10^5 radii from the sphere, whose silhouette is half as high as "
         "the image",
-        "the silhouette is accurate to within 8u times the image's side plus 5u times the radius (u = "
-        "2^-24), because no term of the cross product is larger than the extent of the image at the "
-        "sphere's distance (b^2 - c would have an error of u*d^2, which exceeds r^2 beyond 4,096 "
-        "radii). The depth has an error of up to 24u(d + r), which is 0.3 radii in the last variant",
+        "the silhouette of a sphere with radius r at distance d is accurate to within 8u times the "
+        "image's side plus 5u*r (u = 2^-24), because no term of the cross product is larger than the "
+        "extent of the image at the sphere's distance (the usual discriminant would have an error of "
+        "u*d^2, which exceeds r^2 beyond 4,096 radii). The depth has an error of up to 24u(d + r), "
+        "which is 0.3 radii in the last variant",
         {"1e3", "1e4", "1e5", "2e5"}}, stress_far},
       {{35, "giant", "small spheres touch a sphere with 10,000 times their radius",
         "each sphere is within its own error bounds; the giant's larger bounds apply only to the "
@@ -63,13 +64,15 @@ const std::vector<Entry>& entries() {
       {{43, "no_sphere", "radii are 0, negative, NaN or infinite; a centre is not finite; or the "
         "square of a radius underflows to 0",
         "invalid spheres are dropped and counted, and the image is bit-identical to the image without "
-        "them; a sphere with a vanishing radius does not change any certain pixel",
+        "them; a sphere with a vanishing radius changes no pixel whose result does not depend on "
+        "rounding",
         {"without", "with", "vanishing"}}, stress_no_sphere},
       {{44, "coincident", "each sphere occurs eight times, in different colours",
         "the sphere with the lowest id is visible everywhere, because coincident spheres have exactly "
         "equal depths, and the sphere that is drawn first stays visible", {}}, stress_coincident},
       {{45, "interpenetrating", "the spheres of a lattice intersect",
-        "the boundaries between spheres lie in the bisecting planes (closed-form solution S4)", {}},
+        "the boundaries between spheres lie in the bisecting planes, as in the closed-form solution",
+        {}},
        stress_interpenetrating},
       {{46, "depth_range", "seven spheres, each ten times as far away as the one that overlaps it",
         "depths are ordered correctly over a range of 10^6, because reversed depth in floats has "
@@ -92,8 +95,9 @@ const std::vector<Entry>& entries() {
       {{51, "shape", "the image has one pixel, one row, one column, or incomplete tiles",
         "the image is within its error bounds", {"1x1", "1x40", "40x1", "17x13"}}, stress_shape},
       {{52, "widest", "the image has 16,384 by 8 pixels",
-        "the image is within its error bounds, which allow 8u times the longer side (0.008 pixel); if "
-        "the image exceeds a device limit, it is rejected with a message that states both sizes", {}},
+        "the image is within its error bounds, which allow a ray to be off by 8*2^-24 times the "
+        "longer side (0.008 pixel); if the image exceeds a device limit, it is rejected with a message "
+        "that states both sizes", {}},
        stress_widest},
       {{53, "field_of_view", "the field of view is 0.001 or 179 degrees",
         "centres are transformed to camera space with twice the precision of a float, so their error "

@@ -40,15 +40,15 @@ std::vector<StressCase> cases_of_geometry() {
       {5,
        "chord",
        "rays clip an edge or a corner of the box, so their chord lengths tend to 0",
-       "opacity tends to 0 with the chord length, because 1 − (1 − α)^s is computed without "
-       "cancellation; a ray of length 0 takes no sample",
+       "opacity tends to 0 with the chord length s, because the opacity of a sample of length s, "
+       "1 − (1 − α)^s, is computed without cancellation; a ray of length 0 takes no sample",
        {"edge", "corner"},
        stress_chord},
       {6,
        "octant",
        "volume and camera are mirrored into all eight octants",
        "each image is a mirror image of the first one within the sum of both error bounds, but not "
-       "bit-identical, because N − x and x are rounded differently",
+       "bit-identical, because a coordinate and its mirrored value are rounded differently",
        {"ppp", "mpp", "pmp", "mmp", "ppm", "mpm", "pmm", "mmm"},
        stress_octant},
       {7,
@@ -75,7 +75,8 @@ std::vector<StressCase> cases_of_size() {
        "spacing",
        "voxels have aspect ratios of 1:1:8 and 1:1:1000",
        "the image is within an error bound that measures lengths in units of the smallest spacing, "
-       "because the rounding error of a direction moves a sample by a length in this unit",
+       "because along the axis with this spacing, a rounding error displaces a sample by the most "
+       "voxels",
        {"8", "1000"},
        stress_spacing},
       {10,
@@ -163,27 +164,28 @@ std::vector<StressCase> cases_of_transfer() {
       {20,
        "solid",
        "opacity is exactly 1",
-       "1 − (1 − 1)^s is 1 and not NaN, so the image has exactly one colour",
+       "the opacity of a sample of length s, 1 − (1 − 1)^s, is 1 and not NaN, so the image has "
+       "exactly one colour",
        {},
        stress_solid},
       {21,
        "nearly_solid",
-       "opacity is 1 − 2⁻²⁴, the largest number below 1",
+       "the opacity α is 1 − 2⁻²⁴, the largest float below 1",
        "1 − α is exact, so every form of the opacity correction stays within its bound",
        {"root", "square", "any"},
        stress_nearly_solid},
       {22,
        "faint",
        "100,000 samples of opacity 2⁻²⁰",
-       "the opacity along the cube is 1 − (1 − 2⁻²⁰)^100000 = 0.091, with an error of at most 4u "
-       "per sample",
+       "the opacity along the cube is 1 − (1 − 2⁻²⁰)^100000 = 0.091, with a relative error of at "
+       "most 4 · 2⁻²⁴ per sample",
        {},
        stress_faint},
       {23,
        "march",
        "100,000 and 1,000,000 steps through a varying field",
-       "samples are at (i + ½)·h, with i exact up to 2²³, so their positions do not drift; the "
-       "error of the image is at most 4u per sample",
+       "sample i is at the distance (i + ½)·h for a step h, and i is exact up to 2²³, so positions "
+       "do not drift; the relative error of the image is at most 4 · 2⁻²⁴ per sample",
        {"1e5", "1e6"},
        stress_march},
       {24,

@@ -57,8 +57,10 @@ StressScene marched(double step_voxels, int pixels) {
 // regardless of the length of the sample.
 StressScene stress_solid(std::string_view /*variant*/) {
   StressScene scene = from_within(uniform(orange));
-  scene.expectations = {{"exactly the function's colour, because 1 − (1 − 1)^s is exactly 1",
-                         record::OneColour{orange}}};
+  scene.expectations = {
+      {"exactly the transfer function's colour, because the opacity of a sample "
+       "of length s is 1 − (1 − 1)^s, which is exactly 1",
+       record::OneColour{orange}}};
   return scene;
 }
 
@@ -173,7 +175,7 @@ StressScene stress_opaque(std::string_view /*variant*/) {
   StressScene scene = lopsided_scene();
   scene.function = uniform(orange);
   scene.ert = 1.0 / 512;
-  scene.expectations = {{"at most two samples per ray, because the first one leaves no light",
+  scene.expectations = {{"at most two samples per ray, because the first one is opaque",
                          record::CountAtMost{.counter = "samples", .factor = 2, .of = "rays_hit"}}};
   return scene;
 }
