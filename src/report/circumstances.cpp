@@ -61,7 +61,7 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
   std::vector<std::string> lines;
   if (!injected.empty()) {
     lines.push_back(fmt::format(
-        "this verdict only tests Triptych, because {} record{} injected faults ({})",
+        "this verdict tests only Triptych, because {} record{} injected faults ({})",
         injected_records, injected_records == 1 ? " has" : "s have", fmt::join(injected, ", ")));
   }
   for (const std::string& program : programs) {

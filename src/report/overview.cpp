@@ -90,7 +90,7 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
   }
   for (const auto& [verdict, word] : {std::pair(Verdict::waived, "waived"),
                                       {Verdict::improved, "better"},
-                                      {Verdict::advisory, "with advice"},
+                                      {Verdict::advisory, "with an advisory"},
                                       {Verdict::skipped, "skipped"}}) {
     if (all[verdict] == 0) continue;
     row.sentence += fmt::format("{}{} {}", row.sentence.empty() ? "" : "; ", all[verdict], word);

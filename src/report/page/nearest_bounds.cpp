@@ -35,10 +35,10 @@ std::string nearest_text(std::span<const NearestBound> bounds) {
   constexpr double sees_little = 0.01;
   if (bounds.empty()) return {};
   const auto [farthest, nearest] = std::ranges::minmax_element(bounds, {}, &NearestBound::share);
-  std::string text = fmt::format("at most {:.3g} of the bound", nearest->share);
+  std::string text = fmt::format("error / bound ≤ {:.3g}", nearest->share);
   if (farthest->share < sees_little && farthest != nearest) {
-    text +=
-        fmt::format(", only {:.2g} on {} in {}", farthest->share, farthest->device, farthest->plan);
+    text += fmt::format(", but only ≤ {:.2g} on {} in {}", farthest->share, farthest->device,
+                        farthest->plan);
   }
   return text;
 }

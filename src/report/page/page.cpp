@@ -20,7 +20,7 @@ Html system_line(const record::Run& run) {
 
 Html common_line(const PlanData& plan) {
   const std::string common = common_factors(plan);
-  return common.empty() ? Html() : markup("<p>All scenes: {}.</p>\n", common);
+  return common.empty() ? Html() : markup("<p>Common to all scenes: {}.</p>\n", common);
 }
 
 std::string devices_of(const PlanData& plan) {

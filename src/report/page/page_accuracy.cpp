@@ -113,8 +113,8 @@ Html summary_table(const std::vector<AccuracyScene>& scenes) {
 }
 
 Html order_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{
-      {"scene", "device", "family", "order with 95 % confidence interval", "coarsest", "finest"}};
+  Rows rows{{"scene", "device", "family", "order with 95 % confidence interval",
+             "RMSE at the coarsest step", "RMSE at the finest step"}};
   for (const AccuracyScene& scene : scenes) {
     for (const accuracy::AccuracyFamily& family : scene.families) {
       rows.push_back({accuracy_title(scenes, scene), scene.device, family.name,
@@ -177,7 +177,7 @@ class Parts {
 };
 
 Html parts_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"scene", "device", "change", "RMSE before", "RMSE", "largest", "time"}};
+  Rows rows{{"scene", "device", "change", "RMSE before", "RMSE", "largest error", "time"}};
   for (const AccuracyScene& scene : scenes) Parts(scenes, scene, rows).append();
   return table(rows);
 }
@@ -238,15 +238,15 @@ Html accuracy_section(const PlanData& plan) {
       markup(
           "<h3>Run time against error</h3><p>The error is the root mean square difference from the "
           "limit image over all channels, in linear floats. Images converge to the limit image as "
-          "the step size approaches 0. A line joins configurations that differ only in their step "
-          "size. The thick line is the front: the configurations that no other configuration beats "
-          "in both error and time. The dashed lines mark the errors 1/255, 1/1024 and 1e-4; the "
-          "cost of reaching such an error is interpolated between two neighbours on a line. The "
-          "hypervolume is the area, in natural logarithms, between the front and the point with a "
-          "time of one second and the error of an empty image. The slowdown is the factor by which "
-          "the device with the largest hypervolume could become slower before this device matches "
-          "it. The slowdown is based on the times of one run and does not affect the "
-          "verdict.</p>") +
+          "the step size approaches 0. A line joins the configurations of a family, which differ "
+          "only in their step size. The thick line is the front: the configurations that no other "
+          "configuration beats in both error and time. The dashed lines mark the errors 1/255, "
+          "1/1024 and 1e-4; the cost of reaching such an error is interpolated between two "
+          "neighbours on a line. The hypervolume is the area, in natural logarithms, between the "
+          "front and the point with a time of one second and the error of an empty image. The "
+          "slowdown is the factor by which the device with the largest hypervolume could become "
+          "slower before this device matches it. The slowdown is based on the times of one run and "
+          "does not affect the verdict.</p>") +
       summary_table(scenes);
   text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);
   text +=

@@ -191,8 +191,8 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
     shares.x = result.worst.x;
     shares.y = result.worst.y;
   }
-  const Html difference =
-      figure(ringed(picture(shares.image, "the difference of " + name), shares), "the difference");
+  const Html difference = figure(
+      ringed(picture(shares.image, "the difference image of " + name), shares), "the difference");
   return {.html = titled(scene, group, reference + drawn + difference, verdict_text(result, shares),
                          &shares),
           .wrong = !result.within_bound(),

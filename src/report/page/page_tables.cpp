@@ -59,7 +59,7 @@ std::string_view clock_of_both(const record::Record& a, const record::Record& b)
 
 // Returns a table of the records that reused the frames of another configuration, with the reasons.
 Html taken_over(const PlanData& plan) {
-  Rows rows{{"configuration", "device", "measured as", "reason"}};
+  Rows rows{{"configuration", "device", "same frames as", "reason"}};
   for (const record::Record& record : plan.records) {
     if (record.same_as.empty()) continue;
     rows.push_back(

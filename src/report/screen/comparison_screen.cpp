@@ -40,15 +40,16 @@ std::string milliseconds_of(const Compared& compared) {
   return fmt::format("{} → {}  ", side((*compared.times)[0]), side((*compared.times)[1]));
 }
 
-// Formats a change in the amount of work as "+1.20 % samples, +0.31 % time per unit". The second
-// part is missing if there is no time. Returns "" if the work is the same.
+// Formats a change in the amount of work as "+1.20 % samples, +0.31 % time per unit of work". The
+// second part is missing if there is no time. Returns "" if the work is the same.
 std::string work_of(const Compared& compared) {
   const auto& work = compared.work;
   if (!work || work->log_ratio == 0) return {};
   const auto percent = [](double ln) { return fmt::format("{:+.2f} %", 100 * std::expm1(ln)); };
   std::string text = fmt::format("{} {}", percent(work->log_ratio), work->unit);
   if (compared.has_time()) {
-    text += fmt::format(", {} time per unit", percent(compared.shift.estimate - work->log_ratio));
+    text += fmt::format(", {} time per unit of work",
+                        percent(compared.shift.estimate - work->log_ratio));
   }
   return text;
 }

@@ -174,8 +174,8 @@ std::vector<std::string> colours_of(const PixelInImage& pixel) {
   if (pixel.recorded) {
     lines.push_back(colour_line("recorded", *pixel.recorded,
                                 *pixel.recorded == pixel.image
-                                    ? "the build that records the samples draws the same colour"
-                                    : "the build that records the samples draws a different "
+                                    ? "the device code that records samples draws the same colour"
+                                    : "the device code that records samples draws a different "
                                       "colour"));
   }
   lines.push_back(colour_line("reference", pixel.reference, ""));

@@ -77,7 +77,7 @@ std::string text_of(const judge::CodeTotal& total) {
   std::string text = fmt::format("{:.0f} -> {:.0f} ({})", total.before, total.now,
                                  share(total.now - total.before, total.before));
   if (total.less > 0 && total.more > 0) {
-    text += fmt::format("; split: {}, {}", share(-total.less, total.before),
+    text += fmt::format("; decreases: {}, increases: {}", share(-total.less, total.before),
                         share(total.more, total.before));
   }
   text += fmt::format("; helped: {}, hurt: {}", total.helped, total.hurt);

@@ -140,7 +140,8 @@ std::string advice(const Finding& finding) {
     case Advice::count:
       return "count instructions (requires Valgrind), or leave out the check with --without cost";
     case Advice::judge_more:
-      return fmt::format("request more checks, or accept the run with {}", command);
+      return fmt::format("judge more checks (see --check and --without), or accept the run with {}",
+                         command);
     case Advice::more_time:
       return "increase the time limit with --limit";
     case Advice::times:

@@ -204,10 +204,11 @@ std::string residual_moved(const Observation& what) {
 }
 
 std::string off_the_line(const Observation& what) {
-  std::string text =
-      fmt::format("{} ± {:.2g} % instructions compared with the prediction from {}, q = {:.2g}",
-                  percent(what.number("ratio")), 100 * std::expm1(what.number("standard_error")),
-                  what.fact("other"), what.number("q"));
+  std::string text = fmt::format(
+      "{} ± {:.2g} % instructions compared with the prediction from {}, false "
+      "discovery rate {:.2g}",
+      percent(what.number("ratio")), 100 * std::expm1(what.number("standard_error")),
+      what.fact("other"), what.number("q"));
   if (what.number("configurations") > 1) {
     text += fmt::format(" ({:.0f} configurations, relative to all other configurations)",
                         what.number("configurations"));

@@ -91,7 +91,8 @@ TEST(ComparisonScreen, HasNoTimePerWorkWithoutAMeasuredTime) {
   EXPECT_FALSE(work_in().contains("ln_time_per_work"));
   result.configurations[0].blocks = 12;
   result.configurations[0].shift.estimate = std::log(1.2);
-  EXPECT_THAT(screen_of(result, command), HasSubstr("+16.70 % samples, +2.83 % time per unit\n"));
+  EXPECT_THAT(screen_of(result, command),
+              HasSubstr("+16.70 % samples, +2.83 % time per unit of work\n"));
   EXPECT_NEAR(work_in().at("ln_time_per_work"), std::log(1.2 / 1.167), 1e-12);
   result.configurations[0].ended = record::Outcome::crashed;
   EXPECT_THAT(screen_of(result, command), Not(HasSubstr("time per unit")));

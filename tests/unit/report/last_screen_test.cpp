@@ -65,8 +65,9 @@ TEST(LastScreen, ShowsHowCloseImagesAreToTheirBounds) {
   result.findings.back().numbers["ratio"] = 7;  // this ratio does not belong to a device
   EXPECT_THAT(
       last_screen(std::vector{result}, 3, {}, {.width = 120}),
-      HasSubstr("3 within their error bounds; at most 0.61 of the bound, only 0.003 on opencl:y in "
-                "volume/quick\n"));
+      HasSubstr(
+          "3 within their error bounds; error / bound ≤ 0.61, but only ≤ 0.003 on opencl:y in "
+          "volume/quick\n"));
   const auto all = overview(std::vector{result});
   ASSERT_EQ(all.bounds.size(), 2U);
   EXPECT_EQ(all.bounds[0].device, "gl:x");
@@ -84,7 +85,7 @@ TEST(LastScreen, ListsWaivedFindings) {
       .of = judge::Excuse::Of::waived, .reason = "known", .expiry = "2027-01-01"};
   result.findings.back().numbers["ratio"] = 4e5;
   const std::string text = last_screen(std::vector{result}, 3, {});
-  EXPECT_THAT(text, HasSubstr("1 within their error bounds; 1 waived; at most 0.5 of the bound\n"));
+  EXPECT_THAT(text, HasSubstr("1 within their error bounds; 1 waived; error / bound ≤ 0.5\n"));
   EXPECT_THAT(text, HasSubstr("\n  – gl:x, step=2: waived until 2027-01-01 (known): 3 of"));
 }
 
@@ -93,10 +94,10 @@ TEST(LastScreen, StatesWhetherTimesDecided) {
   add(result, Check::timing, pass, "gl:x", "step=1", {.cause = judge::Cause::time});
   add(result, Check::timing, advisory, "gl:x", "", {.cause = judge::Cause::times});
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
-              HasSubstr("  Times       –          1 shown, not judged; 1 with advice\n"));
+              HasSubstr("  Times       –          1 shown, not judged; 1 with an advisory\n"));
   result.times_decided = true;
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
-              HasSubstr("  Times       pass       1 not slower; 1 with advice\n"));
+              HasSubstr("  Times       pass       1 not slower; 1 with an advisory\n"));
 }
 
 TEST(LastScreen, StatesThatOnlyAPartWasJudged) {
