@@ -48,7 +48,7 @@ void tell(const record::MergeResult::Plan& plan, const std::string& out) {
   put("{}: run {} in {}: {} configurations\n", plan.run.plan, plan.run.id, out,
       plan.run.configurations);
   for (const auto& [device, records] : plan.counts.records) {
-    put("  {}: {}{}\n", device, records,
+    put("  {}: {} records{}\n", device, records,
         records < plan.run.configurations
             ? fmt::format(", {} missing", plan.run.configurations - records)
             : "");

@@ -91,8 +91,9 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
   constexpr std::uint64_t least_memory = std::uint64_t{64} << 20;
   command
       .add_option("--memory", measuring.memory,
-                  "Limit the memory that a worker may allocate, for example to 4G; a configuration "
-                  "that needs more fails (default: no limit; has no effect under Valgrind)")
+                  "Limit the memory that a worker process may allocate, for example to 4G; a "
+                  "configuration that needs more fails (default: no limit; has no effect under "
+                  "Valgrind)")
       ->transform(CLI::AsSizeValue(false))
       ->check(CLI::Range(least_memory, std::numeric_limits<std::uint64_t>::max()));
   add_verbose_option(command, measuring.verbose);
@@ -128,7 +129,8 @@ void add_run_commands(Commands& commands) {
           "--error", measuring.error,
           "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max: measure only "
           "levels of step, quadrature, ert, adapt and skip for which the error relative to "
-          "the scene's limit image is at most E, and report the fastest levels")
+          "the scene's limit image (the exact ray integral) is at most E, and report the fastest "
+          "levels")
       ->excludes("--untimed");
 
   // All devices add their measurements to one run, because `resume` is set. `test-start` has

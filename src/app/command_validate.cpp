@@ -352,8 +352,8 @@ void add_validate_command(Commands& commands) {
                    "after a machine crash");
   command
       .add_option("--jobs", arguments.jobs,
-                  "Run this many workers at the same time, even on a single device (default: one "
-                  "worker per device)")
+                  "Run this many worker processes at the same time, even on a single device "
+                  "(default: one per device)")
       ->check(CLI::Range(1, 64));
   command
       .add_option("--repeat", arguments.repeat,

@@ -51,7 +51,8 @@ TEST_F(MergeCommand, ResultIsJudgedAsOneRun) {
   const Result merged = run("merge 3.sqlite 1.sqlite 2.sqlite --out m.sqlite");
   EXPECT_EQ(merged.code, 0) << merged.output;
   EXPECT_THAT(merged.output, AllOf(HasSubstr(" in m.sqlite: 8 configurations\n"),
-                                   HasSubstr("  null:scripted: 8\n  null:scripted#2: 8\n")));
+                                   HasSubstr("  null:scripted: 8 records\n"
+                                             "  null:scripted#2: 8 records\n")));
   const Result accepted = run("accept p.yaml --reason x --baselines b --store m.sqlite");
   EXPECT_EQ(accepted.code, 0) << accepted.output;
   EXPECT_THAT(verdict_on("m.sqlite"), testing::StartsWith("0"));
