@@ -162,7 +162,7 @@ void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelin
 // depth of each tile.
 void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                           const technique::TileRound& round) const {
-  const Label label(gpu_, commands, "tiles: list, fill and resolve");
+  const Label label(gpu_, commands, "tiles: fill the sphere lists and find the nearest hits");
   run(commands, pipelines[TilePass::place], tile_groups_);
   barrier(commands);
   if (round.entries > 0) {
@@ -177,7 +177,7 @@ void TilesFrames::resolve(const vk::raii::CommandBuffer& commands, const TilePip
 
 void TilesFrames::show(const vk::raii::CommandBuffer& commands,
                        const TilePipelines& pipelines) const {
-  const Label label(gpu_, commands, "tiles: show");
+  const Label label(gpu_, commands, "tiles: shade the nearest hits");
   if (rounds_.small) {
     run(commands, pipelines[TilePass::index], technique::list_groups(data_.particles()));
     barrier(commands);

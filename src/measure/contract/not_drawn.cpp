@@ -10,8 +10,8 @@ void check_counted(std::span<const std::uint32_t> counters) {
   });
   if (untouched) {
     throw NotDrawn(
-        "the counting frame was not drawn: all counters still contain the fill value that was "
-        "written before the frame");
+        "the frame with Triptych's counters was not drawn: all counters still contain the fill "
+        "value that was written before the frame");
   }
 }
 

@@ -115,8 +115,8 @@ void check_loop(const std::vector<double>& loop_wall_ns,
   const double fastest = std::ranges::min(loop_wall_ns);
   if (proven < least_judged_ns || fastest >= least_share * proven) return;
   throw NotDrawn(
-      fmt::format("a frame of the wall-clock loop was not drawn: it took {:.3g} ms, but the "
-                  "fastest of the {} checked frames took {:.3g} ms",
+      fmt::format("a frame of the wall-clock loop (frames drawn back to back) was not drawn: it "
+                  "took {:.3g} ms, but the fastest of the {} checked frames took {:.3g} ms",
                   fastest * 1e-6, proven_wall_ns.size(), proven * 1e-6));
 }
 

@@ -135,11 +135,11 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
   result.image = proof.check("the first frame");
   if (protocol.statistics) {
     record.statistics = draw(Purpose::statistics).counts;
-    check("the statistics frame");
+    check("the frame with pipeline statistics");
   }
   if (protocol.counters) {
     record.counters = draw(Purpose::counters).counts;
-    proof.check_drawn("the counting frame");
+    proof.check_drawn("the frame with Triptych's counters");
   }
   // Submits the same commands again, because a driver that executes them only the first time would
   // have passed all checks so far.
@@ -175,7 +175,7 @@ Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
   }
   if (protocol.counters) {
     record.counters = proof.draw(Purpose::counters).counts;
-    proof.check_drawn("the counting frame");
+    proof.check_drawn("the frame with Triptych's counters");
   }
   record.kernel_hash = prepared.kernel_hash();
   record.outcome = record::Outcome::measured;
@@ -214,12 +214,12 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   if (protocol.statistics) {
     proof.start();
     record.statistics = counted([&] { return prepared.frame(Purpose::statistics); }).counts;
-    proof.check("the statistics frame");
+    proof.check("the frame with pipeline statistics");
   }
   if (protocol.counters) {
     proof.start();
     record.counters = counted([&] { return prepared.frame(Purpose::counters); }).counts;
-    proof.check_drawn("the counting frame");
+    proof.check_drawn("the frame with Triptych's counters");
   }
   std::vector<double> loop_wall_ns;
   loop_wall_ns.reserve(static_cast<std::size_t>(record.loop_frames));
@@ -231,7 +231,7 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   if (meters != nullptr && protocol.has_loop()) {
     record.energy = counted([&] { return meters->of_a_frame(draw); });
   }
-  proof.check("the wall-clock loop");
+  proof.check("the last frame of the wall-clock loop");
   check_loop(loop_wall_ns, record.wall_ns);
 
   for (core::Json& entry : loop.entries) entries.push_back(std::move(entry));

@@ -74,8 +74,9 @@ class Search {
     const std::string name = scene_of(suite_, scene);
     const accuracy::LimitPicture* limit = truths_.limit_of(record_of(scene));
     if (limit == nullptr) {
-      result.out_of_reach.push_back(name +
-                                    ": this scene has no limit image, so no error can be computed");
+      result.out_of_reach.push_back(
+          name +
+          ": a stress scene has no limit image, so no error can be computed; choose other data");
       return;
     }
     const auto nothing = accuracy::errors_of_nothing(limit->image);
