@@ -40,7 +40,7 @@ Html cell_of(const record::Code& code) {
     if (value) cell += markup("<div>{:g} {}</div>", *value, unit);
   };
   add("instructions", "instructions");
-  add("instructions per iteration", "per iteration");
+  add("instructions per iteration", "instructions per iteration");
   add("occupancy", "waves");
   add("inverse throughput", "cycles per wave");
   add("registers", "registers");

@@ -255,7 +255,7 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
       words::text_of(cause), links(cause, plan),
       first.configuration.empty()
           ? Html()
-          : markup("<p class=\"system\">{}{}</p>", several ? "the smallest: " : "",
+          : markup("<p class=\"system\">{}{}</p>", several ? "the smallest configuration: " : "",
                    breakable(first.configuration)),
       command_block(command), checks_of(cause));
 }

@@ -134,7 +134,7 @@ std::string screen_of(const ComparisonResult& result, const ComparisonCommand& c
   std::string text =
       command.plan + "\n" + words::sides(result.a, result.b) + differences_of(result);
   if (result.timed) {
-    text += "time of b divided by time of a:\n";
+    text += "time of b divided by time of a, with the confidence interval in brackets:\n";
     for (const Compared& compared : result.configurations) text += line_of(compared, command);
     text += clocks_of(result);
   }
@@ -155,8 +155,9 @@ std::string screen_of(const std::vector<comparison::DeviceHistory>& history) {
   const auto names = names_of(history);
   std::string text;
   for (const comparison::DeviceHistory& device : history) {
-    text += fmt::format("{}\n  {:<28} {:<20} {:>9} {:>9}  driver\n", device.device, "store",
-                        "started", "cost", "time");
+    text += fmt::format(
+        "{} (cost and time are relative to the first store)\n  {:<28} {:<20} {:>9} {:>9}  driver\n",
+        device.device, "store", "started", "cost", "time");
     for (const HistoryPoint& point : device.points) {
       text += fmt::format("  {:<28} {:<20} {:>9} {:>9}  {}\n", names.at(point.store),
                           point.started_at, number(point.cost), number(point.time),

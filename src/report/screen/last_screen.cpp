@@ -182,7 +182,7 @@ class Screen {
     } else if (!command.empty()) {
       if (cause.group.configurations > 1 && !first.configuration.empty()) {
         append_wrapped(lines,
-                       core::printable("reproduce the smallest, " +
+                       core::printable("reproduce the smallest configuration, " +
                                        record::short_name(first.configuration) + ":"),
                        "");
       }

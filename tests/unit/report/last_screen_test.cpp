@@ -199,7 +199,7 @@ TEST(LastScreen, OneCauseInSeveralPlansIsReportedOnce) {
   EXPECT_THAT(text, HasSubstr("image on vulkan:lavapipe: 11144 of 36864 pixels"));
   EXPECT_THAT(text, HasSubstr("worst in raycast.s6: 11144 of 36864 pixels"));
   EXPECT_THAT(text, Not(HasSubstr("3 of 36864 pixels")));
-  EXPECT_THAT(text, HasSubstr("reproduce the smallest, raycast:"));
+  EXPECT_THAT(text, HasSubstr("reproduce the smallest configuration, raycast:"));
   EXPECT_THAT(text, Not(HasSubstr("--set step")));
   EXPECT_EQ(text.find("✗", text.find("\n\n")), text.rfind("✗"));
 
