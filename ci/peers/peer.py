@@ -10,7 +10,7 @@ import tempfile
 import time
 
 PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "build/release/src/app/triptych"
-WARM_UP, FRAMES, LONGEST = 4, 20, 3.0  # of one VTK measurement: two numbers of frames, and the time limit in s
+WARM_UP, FRAMES, LONGEST = 4, 20, 3.0  # VTK measurements: warm-up frames, timed frames, and the time limit in s
 
 
 def arguments_of(description):

@@ -113,8 +113,8 @@ Html times_section(const PlanData& plan) {
   }
   return folded(plan.verdict->times_decided ? "Times: judged" : "Times: shown, not judged",
                 markup("<p>Each stroke is a timed frame, and the box spans the quartiles. “Back to "
-                       "back” is the wall-clock time per frame in a loop that does not wait for "
-                       "each frame.</p>") +
+                       "back” is the mean wall-clock time per frame in a loop that draws one frame "
+                       "after the other and is timed as a whole.</p>") +
                     time_chart(plan) + folded("Table of times", table(rows, "times")) +
                     taken_over(plan));
 }
