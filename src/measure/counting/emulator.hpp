@@ -2,6 +2,7 @@
 // The supervisor's part in counting instructions: it starts a worker under Valgrind with Triptych's
 // own tool (counting/tool.c). Available only for x86-64.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +29,12 @@ struct Emulator {
 [[nodiscard]] std::vector<std::string> emulated(const Emulator& emulator,
                                                 std::vector<std::string> command,
                                                 std::string_view device_files);
+
+// Returns environment variables as "NAME=VALUE" with which the driver of this device, in a process
+// that runs without the emulator, compiles the code that it would compile under the emulator.
+// Returns nullopt if the driver has no such setting, or if the simulated CPU has no name for it.
+[[nodiscard]] std::optional<std::vector<std::string>> compiles_for_emulator(
+    std::string_view device);
 
 // Returns environment variables as "NAME=VALUE", which override the caller's variables. They limit
 // drivers to one thread, so that a count does not depend on the number of CPU cores. They also give

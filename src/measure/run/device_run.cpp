@@ -47,6 +47,10 @@ DeviceRun::DeviceRun(const RunContext& context, std::string device)
       slot_(worker_setup(side(), context.plan.counted(), cache_, context.options.start_limit),
             context.interrupts) {
   remember();
+  if (!context.plan.counted()) return;
+  if (auto setup = ahead_setup(side(), cache_, context.options.start_limit)) {
+    ahead_.emplace(std::move(*setup), context.plan.suite, context.interrupts);
+  }
 }
 
 SideOptions DeviceRun::side() const {
@@ -68,6 +72,7 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   } else if (job.protocol.counted && known_->cpu_features.empty()) {
     done = {ended(record::Outcome::skipped, {.cause = record::Cause::not_on_processor})};
   } else {
+    if (ahead_ && job.faults.empty()) ahead_->compile(job.configuration);
     done = ask(job, on_loading);
   }
   if (job.protocol.counted) only_counted(done.record);
@@ -102,6 +107,7 @@ Done DeviceRun::pass_by(const Configuration& configuration, const std::string& k
 }
 
 void DeviceRun::finish() {
+  if (ahead_) ahead_->finish();
   std::optional<record::DeviceFault> fault = slot_.finish();
   if (!fault || !known_) return;
   known_->faults.push_back(std::move(*fault));

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "measure/run/ahead_compiler.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/system/environment.hpp"
 #include "measure/system/interrupt.hpp"
@@ -60,9 +61,11 @@ class DeviceRun {
   // the device.
   void finish();
 
-  // Returns the time spent on opening the device and calibrating its clocks. It counts as time of
-  // the device, not as overhead.
-  [[nodiscard]] double opening_ns() const { return slot_.opening_ns(); }
+  // Returns the time spent on opening the device, calibrating its clocks, and compiling ahead. It
+  // counts as time of the device, not as overhead.
+  [[nodiscard]] double opening_ns() const {
+    return slot_.opening_ns() + (ahead_ ? ahead_->spent_ns() : 0);
+  }
 
  private:
   [[nodiscard]] SideOptions side() const;
@@ -87,6 +90,7 @@ class DeviceRun {
   std::string device_;
   CacheFolder cache_;
   WorkerSlot slot_;
+  std::optional<AheadCompiler> ahead_;  // set if the plan counts and the driver can compile ahead
   std::optional<record::Device> known_;
   std::vector<record::ClockTrust> clocks_;
   std::vector<std::uint64_t> peaks_;  // the worker's peak memory after each configuration

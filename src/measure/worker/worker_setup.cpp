@@ -60,4 +60,17 @@ WorkerSetup worker_setup(const SideOptions& side, bool counted, const CacheFolde
   return setup;
 }
 
+std::optional<WorkerSetup> ahead_setup(const SideOptions& side, const CacheFolder& cache,
+                                       std::chrono::milliseconds limit) {
+  const auto compiling = compiles_for_emulator(side.device);
+  if (!compiling || !std::holds_alternative<Emulator>(find_emulator())) return std::nullopt;
+  std::vector<std::string> overrides = side.environment;
+  for (const std::string_view each : counting_environment()) overrides.emplace_back(each);
+  overrides.insert(overrides.end(), compiling->begin(), compiling->end());
+  return WorkerSetup{.device = side.device,
+                     .command = side.command,
+                     .environment = worker_environment(side.device, cache, overrides),
+                     .limit = limit};
+}
+
 }  // namespace triptych::measure

@@ -3,6 +3,7 @@
 // counts instructions, counting/emulator.hpp), its environment and its cache folder.
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,5 +44,11 @@ inline constexpr std::chrono::seconds compiled_limit{300};
 // true, counted_limit is used instead.
 [[nodiscard]] WorkerSetup worker_setup(const SideOptions& side, bool counted,
                                        const CacheFolder& cache, std::chrono::milliseconds limit);
+
+// Returns the setup of a worker that runs without the emulator and fills the cache folder of a
+// counted worker with compiled code. Returns nullopt if this is impossible for the device.
+[[nodiscard]] std::optional<WorkerSetup> ahead_setup(const SideOptions& side,
+                                                     const CacheFolder& cache,
+                                                     std::chrono::milliseconds limit);
 
 }  // namespace triptych::measure

@@ -1,0 +1,41 @@
+#pragma once
+// Compiles the device code of counted configurations before they are counted. Under the emulator,
+// PoCL's compiler takes 30 times as long as in an ordinary process. A worker without the emulator
+// therefore draws each configuration first. The driver stores the compiled code in the cache folder
+// of the counted worker, which then only loads it. Both would compile the same code, bit by bit,
+// because the environment makes the driver compile for the CPU that the emulator simulates.
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "measure/worker/worker_slot.hpp"
+
+namespace triptych::measure {
+
+class AheadCompiler {
+ public:
+  // `setup` is the result of ahead_setup(). `suite` is the name of the suite.
+  AheadCompiler(WorkerSetup setup, std::string suite, InterruptGuard& interrupts)
+      : limit_(setup.limit), suite_(std::move(suite)), slot_(std::move(setup), interrupts) {}
+
+  // Draws one frame of the configuration, without injected faults. If that fails, the counted
+  // worker compiles the code itself, and its record states what is wrong. Throws Interrupted.
+  void compile(const Configuration& configuration);
+
+  void finish() { slot_.finish(); }
+
+  // Returns the total time that these frames have taken, including the time to open the device.
+  [[nodiscard]] double spent_ns() const noexcept { return spent_ns_; }
+
+ private:
+  // Sends a request. Returns whether the worker answered that it has carried out the request.
+  bool carries_out(const Message& request);
+
+  std::chrono::milliseconds limit_;
+  std::string suite_;
+  WorkerSlot slot_;
+  double spent_ns_ = 0;
+};
+
+}  // namespace triptych::measure
