@@ -99,6 +99,7 @@ bool counts_instructions(const record::Executable& executable) {
 void compare_executable(const std::string& name, const record::Executable& before,
                         const record::Executable& now, CodeComparison& comparison) {
   const bool counted = counts_instructions(before) && counts_instructions(now);
+  const std::size_t first = comparison.changes.size();
   // A statistic that only one side reports is missing on the other side, not zero, so it is not a
   // change.
   for (const auto& [statistic, value] : now.statistics) {
@@ -113,6 +114,14 @@ void compare_executable(const std::string& name, const record::Executable& befor
                                   .before = old->second,
                                   .now = value});
   }
+  // If the same instructions take another number of bytes, only encodings or waits have changed.
+  // LLVM's waits differ from run to run (measure/code/compiled_code.cpp).
+  const bool same_instructions =
+      counted &&
+      std::ranges::all_of(
+          comparison.changes.begin() + static_cast<std::ptrdiff_t>(first), comparison.changes.end(),
+          [](const CodeChange& each) { return each.statistic.rank == quantity::code_size.rank; });
+  if (same_instructions) comparison.changes.resize(first);
   if (!before.assembly.empty() && !now.assembly.empty() && before.assembly != now.assembly) {
     comparison.assembled.push_back(name);
   }

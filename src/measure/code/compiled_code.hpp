@@ -12,8 +12,9 @@ namespace triptych::measure {
 class CompiledCode {
  public:
   // Adds an executable; a second executable with the same name becomes "NAME#2". If Triptych can
-  // parse the disassembly, it counts the instructions and adds these statistics: "Instructions" if
-  // the driver does not report them, and "Loop …" for the loop that samples the volume.
+  // parse the disassembly, it counts the instructions and adds these statistics: "Instructions"
+  // (without waits) if the driver does not report them, and "Loop …" for the loop that samples the
+  // volume.
   void add(const std::string& name, std::map<std::string, double> statistics, std::string assembly);
 
   // Throws core::NotSupported if the compiler reported nothing.

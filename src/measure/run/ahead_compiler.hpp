@@ -19,19 +19,16 @@ class AheadCompiler {
   AheadCompiler(WorkerSetup setup, std::string suite, InterruptGuard& interrupts)
       : limit_(setup.limit), suite_(std::move(suite)), slot_(std::move(setup), interrupts) {}
 
-  // Draws one frame of the configuration, without injected faults. If that fails, the counted
-  // worker compiles the code itself, and its record states what is wrong. Throws Interrupted.
-  void compile(const Configuration& configuration);
+  // Draws the configuration of a job. If that fails, the counted worker compiles the code itself,
+  // and its record states what is wrong. Throws Interrupted.
+  void compile(Job job);
 
   void finish() { slot_.finish(); }
 
-  // Returns the total time that these frames have taken, including the time to open the device.
+  // Returns the total time that these jobs have taken, including the time to open the device.
   [[nodiscard]] double spent_ns() const noexcept { return spent_ns_; }
 
  private:
-  // Sends a request. Returns whether the worker answered that it has carried out the request.
-  bool carries_out(const Message& request);
-
   std::chrono::milliseconds limit_;
   std::string suite_;
   WorkerSlot slot_;

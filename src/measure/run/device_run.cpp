@@ -72,7 +72,7 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   } else if (job.protocol.counted && known_->cpu_features.empty()) {
     done = {ended(record::Outcome::skipped, {.cause = record::Cause::not_on_processor})};
   } else {
-    if (ahead_ && job.faults.empty()) ahead_->compile(job.configuration);
+    if (ahead_ && job.faults.empty()) ahead_->compile(job);
     done = ask(job, on_loading);
   }
   if (job.protocol.counted) only_counted(done.record);

@@ -110,6 +110,7 @@ Json to_json(const Protocol& protocol) {
           {"timed", protocol.timed},
           {"counted", protocol.counted},
           {"picture", protocol.picture},
+          {"ahead", protocol.ahead},
           {"compiled", protocol.compiled},
           {"measure_every", protocol.measure_every}};
 }
@@ -124,6 +125,7 @@ Protocol protocol_from(const Json& json) {
           .timed = json.at("timed"),
           .counted = json.at("counted"),
           .picture = json.at("picture"),
+          .ahead = json.at("ahead"),
           .compiled = json.at("compiled"),
           .measure_every = json.at("measure_every")};
 }

@@ -332,8 +332,18 @@ class Worker {
     }
   }
 
+  // Makes the driver compile all code that count() uses.
+  void compile_ahead(const Protocol& protocol, const Work& work, Answer& answer) {
+    const auto prepared = device_->prepare(work);
+    static_cast<void>(prepared->frame(Purpose::timing));
+    if (protocol.counters) static_cast<void>(prepared->frame(Purpose::counters));
+    describe_work(work, *device_, answer.record);
+    answer.record.outcome = record::Outcome::measured;
+  }
+
   // Counts instructions under the emulator. No clock is needed.
   void count(const Job& job, const Work& work, Configuration configuration, Answer& answer) {
+    if (job.protocol.ahead) return compile_ahead(job.protocol, work, answer);
     if (!counter_) counter_ = InstructionCounter::of_this_process();
     if (!counter_)
       throw core::NotSupported("this worker is not running under the instruction counter");

@@ -78,7 +78,7 @@ TEST(CodeChange, TheCodeSizeDecidesIfInstructionsAreNotReported) {
             CodeDirection::better);
   EXPECT_EQ(direction(with({{"Code Size", 664}, {"Instructions", 90}}),
                       with({{"Code Size", 668}, {"Instructions", 90}})),
-            CodeDirection::other);
+            CodeDirection::same);
 }
 
 TEST(CodeChange, AMissingStatisticIsNotZero) {

@@ -46,6 +46,23 @@ TEST(ParseCounts, ReadsLinesFromIntelAndNvidia) {
               AllOf(Contains(Pair("registers", 32)), Contains(Pair("bytes stack frame", 8))));
 }
 
+// The number of waits that LLVM inserts differs from run to run.
+TEST(CompiledCode, WaitsCountOnlyIfTheDriverCountsThem) {
+  constexpr const char* assembly =
+      "BB0_1:\n\timage_sample v1, v[0:2], s[0:7], s[8:11]\n\ts_waitcnt vmcnt(0)\n"
+      "\ts_cbranch_scc1 .LBB0_1\n\ts_endpgm\n";
+  CompiledCode code;
+  code.add("llvm", {{"VGPRS", 8}}, assembly);
+  code.add("aco", {{"Instructions", 4}}, assembly);
+  const Compiled compiled = code.take();
+  EXPECT_THAT(compiled.code.at("llvm").statistics,
+              AllOf(Contains(Pair("Instructions", 2)), Contains(Pair("Loop instructions", 2)),
+                    Not(Contains(Key("Loop waits")))));
+  EXPECT_THAT(compiled.code.at("aco").statistics,
+              AllOf(Contains(Pair("Instructions", 4)), Contains(Pair("Loop instructions", 3)),
+                    Contains(Pair("Loop waits", 1))));
+}
+
 // Shortened output of rusticl from Mesa 25.0.7.
 TEST(PrintedKernels, HaveTheNameThatWasPrintedBefore) {
   const auto kernels = parse_printed_kernels(
