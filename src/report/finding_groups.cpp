@@ -91,6 +91,28 @@ Places wrong_pictures(std::span<const Finding> findings) {
 
 using Members = std::vector<const Finding*>;
 
+bool is_changed_code(const Finding& finding) {
+  return finding.check == Check::code && finding.cause == judge::Cause::values_changed;
+}
+
+// Returns the kind of a finding. Changed code is of one kind, whichever statistics have changed.
+std::string group_kind_of(const Finding& finding) {
+  return is_changed_code(finding) ? std::string(judge::name_of(finding.cause)) : kind_of(finding);
+}
+
+std::size_t configurations_in(const Members& members) {
+  if (!is_changed_code(*members.front())) return members.size();
+  std::set<std::string_view> configurations;
+  for (const Finding* each : members) configurations.insert(each->configuration);
+  return configurations.size();
+}
+
+std::vector<std::string> devices_of(const Members& members) {
+  std::set<std::string> devices;
+  for (const Finding* each : members) devices.insert(each->device);
+  return {devices.begin(), devices.end()};
+}
+
 bool is_smaller(const Finding* a, const Finding* b) {
   const auto key = [](const Finding* each) {
     const bool tried = !each->reason.not_tried;
@@ -141,7 +163,8 @@ class Grouping {
         changed_.insert(place);
         continue;
       }
-      by_kind_[{finding.verdict, finding.check, finding.device, kind_of(finding)}].push_back(
+      const std::string_view device = is_changed_code(finding) ? "" : finding.device;
+      by_kind_[{finding.verdict, finding.check, device, group_kind_of(finding)}].push_back(
           &finding);
     }
   }
@@ -179,9 +202,10 @@ class Grouping {
 
   [[nodiscard]] FindingGroup group_of(const Members& members) const {
     const Finding* first = *std::ranges::min_element(members, is_smaller);
-    FindingGroup group{first, members.size(), signature_of(members)};
+    FindingGroup group{first, configurations_in(members), signature_of(members)};
     group.members = members;
-    group.kind = kind_of(*first);
+    group.devices = devices_of(members);
+    group.kind = group_kind_of(*first);
     group.worst = first;
     for (const Finding* each : members) group.worst = worse_of(group.worst, each);
     if (const auto found = passes_.find({first->check, first->configuration});
@@ -212,9 +236,11 @@ class Grouping {
       add(wrong_, each, wrong);
       add(passes_, each, right);
     }
+    const std::vector<std::string> own = devices_of(members);
     std::erase_if(wrong, [&](const std::string& device) {
-      return right.contains(device) ||
-             record::family_of(device) == record::family_of(members.front()->device);
+      return right.contains(device) || std::ranges::any_of(own, [&](const std::string& each) {
+               return record::family_of(device) == record::family_of(each);
+             });
     });
     return {wrong.begin(), wrong.end()};
   }
@@ -319,8 +345,7 @@ std::vector<FindingGroup> grouped(std::span<const Finding> findings) {
 
 bool have_one_cause(const FindingGroup& a, const FindingGroup& b) {
   const auto key = [](const FindingGroup& group) {
-    return std::tuple(group.first->verdict, std::string_view(group.first->device),
-                      std::string_view(group.kind));
+    return std::tuple(group.first->verdict, group.devices, std::string_view(group.kind));
   };
   if (key(a) != key(b)) return false;
   if (ended_a_program(*a.first)) return true;

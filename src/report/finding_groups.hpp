@@ -25,8 +25,8 @@ struct Blame {
 
 // Findings with the same cause. Contains pointers into the array of findings passed to grouped().
 struct FindingGroup {
-  const judge::Finding* first;  // the finding about the smallest case: fewest pixels, least data
-  std::size_t configurations = 1;
+  const judge::Finding* first;     // the finding about the smallest case: fewest pixels, least data
+  std::size_t configurations = 1;  // if there are several devices, on any of them
   // The factor levels that distinguish the configurations of this group from the other
   // configurations that were checked on the device: "technique=raycast, step=0.5" or
   // "technique≠tiles". Empty if there are no such levels.
@@ -40,14 +40,17 @@ struct FindingGroup {
   // too.
   std::size_t changed_with_it = 0;
   std::vector<const judge::Finding*> members = {};
-  std::string kind = {};  // judge::kind_of() of the findings
+  std::vector<std::string> devices = {};  // the devices of the members, sorted
+  std::string kind = {};                  // judge::kind_of() of the findings
   // The member with the largest error: the one with the most wrong pixels or the largest change.
   const judge::Finding* worst = nullptr;
   [[nodiscard]] Blame blame() const;
 };
 
 // Groups findings. All findings of a group have the same check, verdict, device and cause. They
-// also have the same technique, unless all techniques, or at least three, have this cause.
+// also have the same technique, unless all techniques, or at least three, have this cause. Changed
+// code is an exception: it forms one group for all devices and statistics, because an edited shader
+// is compiled for every GPU family, and changes different statistics on each of them.
 //
 // The worst group comes first: groups are sorted by verdict, then crashes and other abnormal ends
 // come before wrong results, then the order of the checks decides, and then the number of
@@ -58,7 +61,7 @@ struct FindingGroup {
 // counted in changed_with_it.
 [[nodiscard]] std::vector<FindingGroup> grouped(std::span<const judge::Finding> findings);
 
-// Returns whether groups from two plans have the same cause: they have the same device, verdict,
+// Returns whether groups from two plans have the same cause: they have the same devices, verdict,
 // kind and check, and at least one technique in common. If a configuration crashed or ended
 // abnormally, the check and the techniques may differ.
 [[nodiscard]] bool have_one_cause(const FindingGroup& a, const FindingGroup& b);

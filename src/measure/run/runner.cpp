@@ -194,7 +194,9 @@ RunResult measure_devices_side_by_side(const RunContext& context,
                                        const PlanRun::Tell& on_progress) {
   const Stopwatch stopwatch;
   const auto jobs = static_cast<std::size_t>(context.options.jobs);
-  const std::vector<Plan> plans = parts_of(context.plan, std::max<std::size_t>(jobs, 1));
+  // Compilers differ so much in speed that the slowest one would otherwise run alone at the end.
+  const std::size_t workers_each = context.plan.compiled() ? processors() : 1;
+  const std::vector<Plan> plans = parts_of(context.plan, std::max(jobs, workers_each));
   std::vector<RunContext> contexts;
   contexts.reserve(plans.size());
   for (const Plan& plan : plans) {
@@ -232,7 +234,7 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
                              open_run(each, devices, store),
                              kinds_of(plan, options.protocol)};
     const bool timed = context.plan.timed() && options.protocol.timed;
-    const bool side_by_side = !timed && (devices.size() > 1 || options.jobs > 1);
+    const bool side_by_side = !timed && (devices.size() > 1 || options.jobs > 1 || plan.compiled());
     results.push_back(side_by_side ? measure_devices_side_by_side(context, devices, on_progress)
                                    : PlanRun(context, devices, on_progress).measure_all());
   }

@@ -25,7 +25,11 @@ std::string details_of(const FindingGroup& group, const judge::GateResult& resul
   if (!is_open(*group.first)) return {};
   std::vector<std::string> lines;
   if (group.members.size() > 1) {
-    for (const judge::Finding* each : group.members) lines.push_back(each->configuration);
+    for (const judge::Finding* each : group.members) {
+      lines.push_back(group.devices.size() > 1
+                          ? fmt::format("{} {}", each->device, each->configuration)
+                          : each->configuration);
+    }
   }
   lines.push_back(command_of(*group.first, result));
   std::string text;

@@ -250,9 +250,10 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
       "<article class=\"{0}\"{1} data-kind=\"{2}\" data-device=\"{3}\" data-suite=\"{4}\" "
       "data-check=\"{11}\"><h3><span class=\"verdict {0}\">{5}</span> {6}</h3><p>{7}{8}</p>{9}{10}"
       "</article>\n",
-      judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark", first.device,
-      suite_of(plan), judge::name_of(first.check), breakable(words::place(cause)),
-      words::text_of(cause), links(cause, plan),
+      judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark",
+      fmt::format("{}", fmt::join(cause.group.devices, " ")), suite_of(plan),
+      judge::name_of(first.check), breakable(words::place(cause)), words::text_of(cause),
+      links(cause, plan),
       first.configuration.empty()
           ? Html()
           : markup("<p class=\"system\">{}{}</p>", several ? "the smallest configuration: " : "",

@@ -110,7 +110,7 @@ class Screen {
         "  {} {}", sign_of(first),
         core::printable(fmt::format("{} {} {}: {}", judge::name_of(first.check),
                                     first.device.empty() ? "of" : "on",
-                                    first.device.empty() ? cause.result->plan : first.device,
+                                    first.device.empty() ? cause.result->plan : worst.device,
                                     words::text_of(worst)),
                         width_ - 4));
   }

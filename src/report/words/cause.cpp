@@ -28,9 +28,15 @@ std::string subject(const FindingGroup& group) {
                                    : fmt::format("{} configurations", group.configurations);
 }
 
+std::string devices(const FindingGroup& group) {
+  constexpr std::size_t most = 3;
+  return group.devices.size() > most ? fmt::format("{} devices", group.devices.size())
+                                     : fmt::format("{}", fmt::join(group.devices, ", "));
+}
+
 std::string place(const Cause& cause) {
   const Finding& first = *cause.group.first;
-  std::string text = first.device.empty() ? cause.result->plan : first.device;
+  std::string text = first.device.empty() ? cause.result->plan : devices(cause.group);
   if (first.device.empty() && cause.plans > 1) {
     return fmt::format("{} and {} more", text, cause.plans - 1);
   }
@@ -44,7 +50,9 @@ std::string found(const Cause& cause) {
   const Finding& worst = group.worst == nullptr ? *group.first : *group.worst;
   std::string text = found(worst);
   if (&worst != group.first) {
-    text = fmt::format("worst in {}: {}", record::short_name(worst.configuration), text);
+    const std::string where =
+        group.devices.size() > 1 ? fmt::format(" on {}", worst.device) : std::string();
+    text = fmt::format("worst in {}{}: {}", record::short_name(worst.configuration), where, text);
   }
   if (!group.right_on.empty() && group.first->verdict == judge::Verdict::regression) {
     text += fmt::format("; correct on {}", fmt::join(group.right_on, ", "));

@@ -13,6 +13,8 @@ namespace triptych::report::words {
 // Returns the configuration, or "12 configurations" if there are several. Returns "" for a finding
 // about a whole device or plan.
 [[nodiscard]] std::string subject(const FindingGroup& group);
+// Returns the devices of the group, or "9 devices" if there are more than three.
+[[nodiscard]] std::string devices(const FindingGroup& group);
 // Returns where the findings are: "vulkan:lavapipe, technique=raycast (12 configurations)", or the
 // plans if the findings belong to no device.
 [[nodiscard]] std::string place(const Cause& cause);

@@ -125,6 +125,25 @@ TEST(FindingGroups, DevicesChecksVerdictsAndCausesAreSeparate) {
   EXPECT_EQ(grouped(findings).size(), 5U);
 }
 
+// An edited shader is compiled for every GPU family and changes other statistics on each of them.
+TEST(FindingGroups, ChangedCodeIsOneCauseOnAllDevices) {
+  const std::vector<Finding> findings{
+      finding(regression, "vulkan:a", "technique=x,viewport=64", changed("instructions"),
+              Check::code),
+      finding(regression, "vulkan:b", "technique=x,viewport=64", changed("latency"), Check::code),
+      finding(regression, "gl:c", "technique=x,viewport=32", changed("latency"), Check::code),
+      finding(pass, "opencl:d", "technique=x,viewport=32", {}, Check::code),
+      finding(regression, "gl:e", "technique=x,viewport=32",
+              judge::Observation{.cause = judge::Cause::not_finite}, Check::code)};
+  const std::vector<FindingGroup> groups = grouped(findings);
+  ASSERT_EQ(groups.size(), 3U);
+  EXPECT_THAT(groups[0].devices, ElementsAre("gl:c", "vulkan:a", "vulkan:b"));
+  EXPECT_EQ(groups[0].configurations, 2U);
+  EXPECT_EQ(groups[0].first, &findings[2]);
+  EXPECT_THAT(groups[0].right_on, ElementsAre("opencl:d"));
+  EXPECT_THAT(groups[1].devices, ElementsAre("gl:e"));
+}
+
 TEST(FindingGroups, FaultsOfADeviceAreSeparate) {
   const auto fault = [](const std::string& kind) {
     return judge::Observation{.cause = judge::Cause::device_fault, .facts = {{"kind", kind}}};
