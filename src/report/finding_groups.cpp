@@ -163,7 +163,8 @@ class Grouping {
         changed_.insert(place);
         continue;
       }
-      const std::string_view device = is_changed_code(finding) ? "" : finding.device;
+      const std::string_view device =
+          is_changed_code(finding) ? std::string_view() : std::string_view(finding.device);
       by_kind_[{finding.verdict, finding.check, device, group_kind_of(finding)}].push_back(
           &finding);
     }
