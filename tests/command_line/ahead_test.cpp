@@ -11,31 +11,24 @@
 namespace triptych::command_line {
 namespace {
 
-// Configurations with an injected fault are not compiled ahead, so the instructions of their
-// preparation include those of PoCL's compiler.
 TEST(CompilingAhead, LeavesOutTheInstructionsOfPoclsCompiler) {
   const Program program;
   program.write("p.yaml",
                 "suite: volume\nchecks: [cost]\ntechnique: [raycast]\n"
-                "data: [generate:gaussian_blob:16]\nviewport: [16]\nstep: [1, 0.5]\n");
-  const Result run = program.run(
-      "run p.yaml --device opencl:pocl --store s.sqlite --inject slowdown:100@step=0.5", "{}",
-      fmt::format("env XDG_CACHE_HOME='{}'", (program.folder() / "cache").string()));
+                "data: [generate:gaussian_blob:16]\nviewport: [16]\n");
+  const Result run =
+      program.run("run p.yaml --device opencl:pocl --store s.sqlite", "{}",
+                  fmt::format("env XDG_CACHE_HOME='{}'", (program.folder() / "cache").string()));
   if (!std::filesystem::exists(program.folder() / "s.sqlite")) {
     GTEST_SKIP() << "needs PoCL: " << run.output;
   }
   const record::Store records(program.folder() / "s.sqlite", record::Store::Mode::read);
-  double ahead = 0;
-  double counted = 0;
-  for (const record::Record& record : records.records(records.runs().front().id)) {
-    if (!record.instructions()) GTEST_SKIP() << "needs the instruction counter";
-    double& sum = record.injected.empty() ? ahead : counted;
-    for (const char* group : {"device_code", "driver", "libc", "program"}) {
-      sum += static_cast<double>(record.prepare_cost.at(group));
-    }
-  }
-  EXPECT_GT(ahead, 0);
-  EXPECT_GT(counted, 3 * ahead);
+  const auto found = records.records(records.runs().front().id);
+  ASSERT_EQ(found.size(), 1U);
+  if (!found.front().instructions()) GTEST_SKIP() << "needs the instruction counter";
+  if (found.front().counted_by.find("AVX2") == std::string::npos) GTEST_SKIP() << "needs AVX2";
+  // PoCL 3.1 executes 5.2e9 instructions to compile this scene's kernel, and 0.5e9 to load it.
+  EXPECT_LT(found.front().prepare_cost.at("driver"), 1'500'000'000U);
 }
 
 }  // namespace
