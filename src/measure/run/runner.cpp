@@ -194,8 +194,10 @@ RunResult measure_devices_side_by_side(const RunContext& context,
                                        const PlanRun::Tell& on_progress) {
   const Stopwatch stopwatch;
   const auto jobs = static_cast<std::size_t>(context.options.jobs);
-  // Compilers differ so much in speed that the slowest one would otherwise run alone at the end.
-  const std::size_t workers_each = context.plan.compiled() ? processors() : 1;
+  // In a plan that only compiles, two workers divide the configurations of each device, because the
+  // slowest compiler would otherwise run alone at the end. The number does not depend on the
+  // machine, because some statistics of radeonsi depend on what the process compiled before.
+  const std::size_t workers_each = context.plan.compiled() ? 2 : 1;
   const std::vector<Plan> plans = parts_of(context.plan, std::max(jobs, workers_each));
   std::vector<RunContext> contexts;
   contexts.reserve(plans.size());

@@ -34,8 +34,8 @@ struct RunOptions {
   std::set<std::pair<std::string, std::string>> again = {};
   std::vector<InjectedFault> faults;
   // The maximum number of workers that run at the same time if nothing is timed. One device may
-  // have several workers. 0: one worker for each device (in a plan that only compiles, one for each
-  // CPU core), but not more than there are CPU cores.
+  // have several workers. 0: one worker for each device (two in a plan that only compiles), but not
+  // more than there are CPU cores.
   int jobs = 0;
   std::vector<std::string> worker_command;           // see SideOptions::command
   std::vector<std::string> worker_environment = {};  // see SideOptions::environment
