@@ -39,8 +39,9 @@ const std::vector<Entry>& entries() {
         "every pixel shows the point where the ray leaves the sphere; everything outside is hidden",
         {"centre", "off_centre", "under_surface"}}, stress_inside},
       {{37, "skimming", "the eye is 1.0001 or 1.0006 radii from a sphere's centre, with the horizon in view",
-        "up to a distance of 1.0005 radii, the sprite covers the whole viewport; beyond that distance, "
-        "it extends behind the eye and is clipped; no pixel at the horizon is lost",
+        "if the eye is at most 1.0005 radii from the centre, the sprite covers the whole viewport; if "
+        "the eye is farther away, the part of the sprite that is behind the eye is clipped; no pixel at the "
+        "horizon (the edge of the visible part of the sphere) is lost",
         {"1.0001", "1.0006"}}, stress_skimming},
       {{38, "near_plane", "spheres cross the eye plane or come close to the eye",
         "the image has no holes, because the near plane does not clip any visible point; it only "
@@ -64,7 +65,7 @@ const std::vector<Entry>& entries() {
       {{43, "no_sphere", "radii are 0, negative, NaN or infinite; a centre is not finite; or the "
         "square of a radius underflows to 0",
         "invalid spheres are dropped and counted, and the image is bit-identical to the image without "
-        "them; a sphere with a vanishing radius changes no pixel whose result does not depend on "
+        "them; a sphere with a vanishing radius can change only pixels whose result depends on "
         "rounding",
         {"without", "with", "vanishing"}}, stress_no_sphere},
       {{44, "coincident", "each sphere occurs eight times, in different colours",
@@ -97,7 +98,7 @@ const std::vector<Entry>& entries() {
       {{52, "widest", "the image has 16,384 by 8 pixels",
         "the image is within its error bounds, which allow a ray to be off by 8*2^-24 times the "
         "longer side (0.008 pixel); if the image exceeds a device limit, it is rejected with a message "
-        "that states both sizes", {}},
+        "that states the image's size and the limit", {}},
        stress_widest},
       {{53, "field_of_view", "the field of view is 0.001 or 179 degrees",
         "centres are transformed to camera space with twice the precision of a float, so their error "

@@ -102,8 +102,9 @@ std::vector<StressCase> cases_of_size() {
       {13,
        "oversize",
        "the volume has 20000 voxels along x, more than any texture may have",
-       "samplers that read voxels from a buffer draw the volume; all other samplers reject it with "
-       "a message that states both sizes",
+       "samplers that read voxels from a buffer draw the volume; all other samplers need a "
+       "texture, so they reject the volume with a message that states its size and the device's "
+       "limit",
        {},
        stress_oversize},
       {14,
@@ -150,10 +151,10 @@ std::vector<StressCase> cases_of_voxels() {
        stress_denormal},
       {19,
        "flat",
-       "the value range of floats or bytes is empty, or the field is constant, with or without "
-       "shading",
-       "an empty range maps everything to 0; where the gradient is 0, the cosine is 0 as well, "
-       "because the divisor has a lower limit",
+       "in two variants, the value range of the data (floats or bytes) is empty; in the other two, "
+       "the field is constant (without or with shading)",
+       "an empty range maps everything to 0; where the gradient is 0, the cosine between the "
+       "gradient and the ray is 0 as well, because its divisor has a lower limit",
        {"range_f32", "range_u8", "plain", "shaded"},
        stress_flat},
   };
@@ -197,7 +198,7 @@ std::vector<StressCase> cases_of_transfer() {
       {25,
        "spike",
        "only one of 256 transfer-function entries is visible, and a step can miss it",
-       "the same samples hit or miss the entry on the device and in the reference; where rounding "
+       "the same samples hit or miss the entry on the device and in the reference; if rounding "
        "decides, the error bound covers both results; with pre-integration, no step misses it",
        {"low", "middle", "preintegrated"},
        stress_spike},
@@ -264,7 +265,7 @@ std::vector<StressCase> cases_of_frame() {
        "widest",
        "the image is 16384 pixels wide, or one pixel wider",
        "both images are drawn, but a device may reject the wider one with a message that states "
-       "both sizes",
+       "the image's size and the device's limit",
        {"16384", "16385"},
        stress_widest},
       {53,

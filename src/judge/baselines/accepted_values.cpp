@@ -143,10 +143,16 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
     if (file.value("counted_by", "") != record.counted_by) {
       const bool loses = !accepted.replaces_all && file.contains("configurations");
       if (counted || loses) {
+        const std::string other = file.value("counted_by", "");
         throw core::InputError(
-            fmt::format("run {}: the instruction counts for {} come from {} and from {}{}",
-                        record.run, device.id, file.value("counted_by", ""), record.counted_by,
-                        counted ? "" : "; accept the whole plan, without --only"));
+            counted ? fmt::format("run {}: the instruction counts for {} are not comparable, "
+                                  "because {} counted some of them and {} the others; measure "
+                                  "the plan again with one emulator",
+                                  record.run, device.id, other, record.counted_by)
+                    : fmt::format("run {}: the instruction counts for {} are not comparable with "
+                                  "the stored counts, because they were counted by {}, but the "
+                                  "stored counts by {}; accept the whole plan, without --only",
+                                  record.run, device.id, record.counted_by, other));
       }
       file = {{"device", device.id},
               {"driver_version", device.driver_version},

@@ -174,9 +174,9 @@ std::vector<std::string> colours_of(const PixelInImage& pixel) {
   if (pixel.recorded) {
     lines.push_back(colour_line("recorded", *pixel.recorded,
                                 *pixel.recorded == pixel.image
-                                    ? "the device code that records samples draws the same colour"
-                                    : "the device code that records samples draws a different "
-                                      "colour"));
+                                    ? "the build that records samples draws the colour of the image"
+                                    : "the build that records samples does not draw the colour of "
+                                      "the image"));
   }
   lines.push_back(colour_line("reference", pixel.reference, ""));
   return lines;

@@ -253,8 +253,8 @@ std::string text_of(const TimeReason& reason) {
       return fmt::format("the image of {} is wrong, so its time is meaningless", side);
     case TimeCause::no_fresh_process_runs:
       return fmt::format(
-          "{} in the first process run, but fresh process runs to confirm this could not be "
-          "measured",
+          "{} in the first process run, but this is not confirmed, because no fresh process runs "
+          "could be measured",
           suspected);
     case TimeCause::not_confirmed:
       return fmt::format(

@@ -224,8 +224,10 @@ std::string sentence_of(const Observation& what) {
     case Cause::other_driver_statistics:
       return other_driver_statistics(what);
     case Cause::two_counters:
-      return fmt::format("some instructions were counted by {}, others by {}",
-                         what.fact("counted_by"), what.fact("other"));
+      return fmt::format(
+          "the instruction counts are not comparable, because {} counted some of them and {} the "
+          "others",
+          what.fact("counted_by"), what.fact("other"));
     case Cause::other_counter:
       return other_counter(what);
     case Cause::frame_allocations:
@@ -235,8 +237,9 @@ std::string sentence_of(const Observation& what) {
     case Cause::injected_memory:
       return "not compared, because the injected slowdown itself allocates memory";
     case Cause::other_executables:
-      return fmt::format("executables were added or removed since the baseline was accepted: {}",
-                         fmt::join(what.names, ", "));
+      return fmt::format(
+          "shaders or kernels were added or removed since the baseline was accepted: {}",
+          fmt::join(what.names, ", "));
     case Cause::other_disassembly:
       return fmt::format("the disassembly of {} changed, but the code statistics did not",
                          examples(what.names));

@@ -16,21 +16,22 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
     case ParticleFault::wrong_sense:
       // `tiles` always rejects whole spheres by the depth of their front, regardless of the option.
       if (tiles || options.conservative_depth) return std::nullopt;
-      return "the fault wrong_sense requires conservative_depth=on, because otherwise no fragment "
-             "is rejected early";
+      return "the injected fault wrong_sense requires conservative_depth=on, because otherwise no "
+             "fragment is rejected early";
     case ParticleFault::culled_visible:
       if (options.culling != Culling::none) return std::nullopt;
-      return "the fault culled_visible requires culling=frustum or culling=occlusion";
+      return "the injected fault culled_visible requires culling=frustum or culling=occlusion";
     case ParticleFault::lost_at_border:
       if (in_tiles) return std::nullopt;
-      return "the fault lost_at_border requires tiles, but here the API's rasterizer determines "
-             "which pixels a sprite covers";
+      return "the injected fault lost_at_border requires tiles, but here the API's rasterizer "
+             "determines which pixels a sprite covers";
     case ParticleFault::missing_barrier:
       if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
-      return "the fault missing_barrier requires work-group barriers, but this technique uses none "
-             "with this API";
+      return "the injected fault missing_barrier requires work-group barriers, but this technique "
+             "uses none with this API";
     case ParticleFault::small_box:
-      return "the fault small_box requires a hierarchy of boxes, which only ray techniques use";
+      return "the injected fault small_box requires a hierarchy of boxes, which only ray "
+             "techniques use";
     case ParticleFault::none:
     case ParticleFault::small_sprite:
     case ParticleFault::unresolved_ties:
@@ -43,13 +44,15 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
 std::optional<std::string> fault_of_rays(ParticleFault fault) {
   switch (fault) {
     case ParticleFault::small_sprite:
-      return "the fault small_sprite requires sprites, but ray techniques draw none";
+      return "the injected fault small_sprite requires sprites, but ray techniques draw none";
     case ParticleFault::culled_visible:
-      return "the fault culled_visible requires culling, but ray techniques do not cull cells";
+      return "the injected fault culled_visible requires culling, but the factor culling has no "
+             "effect on ray techniques";
     case ParticleFault::lost_at_border:
-      return "the fault lost_at_border requires tiles, but ray techniques do not use tiles";
+      return "the injected fault lost_at_border requires tiles, but ray techniques use none";
     case ParticleFault::missing_barrier:
-      return "the fault missing_barrier requires work-group barriers, but ray techniques use none";
+      return "the injected fault missing_barrier requires work-group barriers, but ray techniques "
+             "use none";
     case ParticleFault::none:
     case ParticleFault::unresolved_ties:
     case ParticleFault::reversed_depth:
