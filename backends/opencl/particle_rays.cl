@@ -1,10 +1,13 @@
-// Runs one work item per tile. It descends the hierarchy with the beam of all rays of the tile,
-// nearer child first, and draws each sphere that may be visible and whose box intersects the beam.
-// bvh.comp.glsl does this for beams of 4×2 pixels, and explains how the traversal goes back up.
+// Runs one work item per tile. It descends the hierarchy with the beam (the bundle of the rays of
+// all pixels of the tile), nearer child first, and draws each sphere that may be visible and whose
+// box intersects the beam. bvh.comp.glsl does this for beams of 4×2 pixels, and explains how the
+// traversal goes back up.
 
-// The normals of eight planes: the sides of the beam (left, right, lower, upper), each with the
-// beam on its positive side; the view axis backwards and forwards; and two unused planes that never
-// exclude anything.
+// Eight directions, whose components are stored in x, y and z:
+//   0 to 3  the normals of the sides of the beam (left, right, lower, upper), which point inwards
+//   4, 5    the view axis backwards and forwards, to find the nearest and the farthest point of a
+//           box along the axis
+//   6, 7    unused (0)
 typedef struct {
   float8 x;
   float8 y;

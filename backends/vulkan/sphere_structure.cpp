@@ -19,8 +19,8 @@ using Type = vk::AccelerationStructureTypeKHR;
 constexpr std::string_view boxes_code = "ray_boxes.comp.spv";
 constexpr vk::DeviceSize box_bytes = sizeof(vk::AabbPositionsKHR);
 
-// A structure that is built once is optimised for fast tracing. A structure that is built in every
-// frame is optimised for fast building.
+// A structure that is built once, or refitted, is optimized for fast tracing. A structure that is
+// built in every frame is optimized for fast building.
 vk::BuildAccelerationStructureFlagsKHR flags_of(Structure kind) {
   using enum vk::BuildAccelerationStructureFlagBitsKHR;
   switch (kind) {

@@ -66,8 +66,8 @@ class Reader {
 
   Reader& operator>>(std::string& text) {
     const SQLite::Column column = row_.getColumn(index_++);
-    // The size is limited, because parsing a string and computing its seal need several times as
-    // much memory as the string itself.
+    // The size is limited, because parsing a string and computing its seal (a hash that detects
+    // changed values) need several times as much memory as the string itself.
     constexpr int most = 64 << 20;
     if (column.getBytes() > most) {
       throw core::InputError(fmt::format("contains a string of {} bytes; the limit is {} bytes",

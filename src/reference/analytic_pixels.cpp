@@ -254,7 +254,8 @@ Shell shell_of(const Setting& setting) {
 
 Wave wave_of(const Setting& setting) {
   const double length = setting.extent.z;
-  // The largest slope of the stored value (½ + 255·g)/256 for an amplitude of 1.
+  // The largest change of the stored value x = (½ + 255·g)/256 over one voxel (of the smallest
+  // spacing), if the amplitude a of the wave g = a·(1 − cos(πz/L))/2 is 1.
   const double slope = 255.0 / 256.0 * 0.5 * std::numbers::pi / length * setting.voxel;
   const double amplitude = std::min(1.0, 0.9 * scene::Shading{}.gradient_floor / slope);
   return {.length = length, .amplitude = amplitude, .steepest = amplitude * slope};

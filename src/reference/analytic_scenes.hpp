@@ -13,7 +13,8 @@
 namespace triptych::reference {
 
 // The problems, and the order of convergence of a midpoint renderer with step h, measured by the
-// error against the closed-form solution:
+// error against the closed-form solution. τ is the extinction (optical depth per unit of length), k
+// is a constant, and H is the scale height:
 // clang-format off
 enum class AnalyticProblem {
   v1_constant,    // homogeneous box                          exact for every h

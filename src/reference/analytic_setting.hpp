@@ -12,7 +12,9 @@
 namespace triptych::reference {
 
 using Rgb = std::array<double, 3>;
-// τ and the colour (not premultiplied) as functions of g, with bounds on the derivatives of τ.
+// The extinction τ (optical depth per world unit) and the colour (not premultiplied) as functions
+// of the value g, which each problem computes from the position (analytic_scenes.hpp), with bounds
+// on the derivatives of τ.
 struct Medium {
   std::function<double(double)> tau;
   std::function<Rgb(double)> colour;

@@ -41,9 +41,10 @@ using scene::looking;
 // Returns seen_from_outside() for the lopsided field, in a volume of 24³ voxels.
 [[nodiscard]] StressScene lopsided_scene();
 
-// These functions return the expectation that the image matches the image of another variant, whose
-// name in a plan is `data`. The images must be bit-identical, or equal within the sum of both
-// bounds.
+// These functions return the expectation that the image matches the image of another variant of the
+// stress case. The parameter `data` is the name of that variant in a plan
+// ("stress:CASE:VARIANT"), and `what` describes the expectation in findings. The images must be
+// bit-identical, or must differ by at most the sum of the two images' error bounds.
 [[nodiscard]] record::Expectation same_bits_as(const std::string& data, std::string what);
 [[nodiscard]] record::Expectation same_within_bounds_as(const std::string& data, std::string what);
 

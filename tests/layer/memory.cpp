@@ -10,7 +10,8 @@
 namespace triptych::layer {
 namespace {
 
-// The memory types that Triptych sees. In the driver, type 0 serves as both.
+// The memory types that this layer reports to Triptych. The driver has only type 0, from which the
+// memory of both types is allocated.
 enum Type : std::uint32_t { on_device, on_host, types };
 
 std::mutex mutex;

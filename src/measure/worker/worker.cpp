@@ -245,8 +245,9 @@ class Worker {
     answer.listings.clear();
   }
 
-  // Creates the work of the configuration and resolves its "auto" levels. Throws NotSupported if
-  // data is missing or if the device cannot draw the work.
+  // Creates the Work, which describes everything that the device has to draw for the configuration
+  // (technique, scene and options), and resolves the configuration's "auto" levels. Throws
+  // NotSupported if the input data is missing or if the device does not support the Work.
   Work supported_work(Configuration& configuration, const std::vector<std::string>& faults) {
     const auto data = configuration.find("data");
     data_ = data == configuration.end() ? "none" : data->second;

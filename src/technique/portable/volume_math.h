@@ -135,9 +135,9 @@ TRI_FN real tri_opacity(real alpha, real steps) {
   return tri_1m_exp2(steps * tri_log2_1m(alpha));
 }
 
-// Returns 1 − (1 − alpha)^steps. If `steps` is a power of two, `form` encodes it: form = k > 0 means
-// steps = 2^(1−k), and form = k < 0 means steps = 2^−k. For any other `steps`, `form` is 0. alpha is in [0, 1], and
-// the result is exact at both ends. For k > 1, n = k − 1 square roots are used: with r_0 = 1 − alpha and
+// Returns 1 − (1 − alpha)^steps. If `steps` is one of the powers of two from ⅛ to 4, `form` encodes it: form = k > 0
+// means steps = 2^(1−k), and form = k < 0 means steps = 2^−k. For any other `steps`, `form` is 0. alpha is in [0, 1],
+// and the result is exact at both ends. For k > 1, n = k − 1 square roots are used: with r_0 = 1 − alpha and
 // r_i = √r_(i−1), the result is 1 − r_n = alpha / ((1 + r_1)…(1 + r_n)), which involves no cancellation. Each square
 // root adds 1.5 roundings, and the division adds one. For k < 0, a → a·(2 − a) is applied repeatedly, with two
 // roundings each time.

@@ -125,9 +125,9 @@ TEST(GlParticles, SpheresLargerThanPointsAreDrawn) {
   });
 }
 
-// Draws a sphere that intersects the plane of the eye and is visible only on the right. The sprite
-// of `point` must be only as large as the sphere's projection, regardless of whether the device's
-// points are large enough.
+// Draws a sphere that intersects the plane of the eye and is visible only in the right part of the
+// image. The sprite that the technique `point` draws must be only as large as the visible part of
+// the sphere, regardless of whether the device supports points of that size.
 TEST(GlParticles, APointAcrossTheEyePlaneDoesNotFillTheViewport) {
   for_each_device([](measure::Device& device) {
     scene::ParticleScene scene = seen_from({{1.5, 0, -0.9, 1}}, {0, 0, 0}, 60);

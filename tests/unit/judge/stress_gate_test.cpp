@@ -190,7 +190,8 @@ TEST_F(StressGateTest, DifferentBitsLoseAPoint) {
   EXPECT_EQ(finding.because[0].number("x"), 1);
 }
 
-// A shard may contain only one of two configurations whose images are to be compared.
+// If a plan is divided into shards, two configurations whose images are to be compared can be in
+// different shards. The missing image must not cost a point in the gate of a single shard.
 TEST_F(StressGateTest, APartOfAPlanNeedsNoOtherImages) {
   add_run("a");
   accept_scores("a");
