@@ -57,8 +57,9 @@ void check_mesh_limits(const Gpu& gpu, std::size_t cells) {
   const std::size_t groups = (cells + cells_per_task_group - 1) / cells_per_task_group;
   if (groups > has.task_groups) {
     throw core::NotSupported(
-        fmt::format("{} particle cells need {} task groups, but maxTaskWorkGroupCount is {}", cells,
-                    groups, has.task_groups));
+        fmt::format("{} cells (groups of neighbouring particles) need {} task groups, but "
+                    "maxTaskWorkGroupCount is {}",
+                    cells, groups, has.task_groups));
   }
 }
 

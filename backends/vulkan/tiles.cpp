@@ -92,8 +92,10 @@ technique::TileRounds rounds_of(const Gpu& gpu, const measure::ParticleWork& wor
   if (const auto reason = technique::passes_reason(rounds)) throw core::NotSupported(*reason);
   if (rounds.entries > most) {
     throw core::NotSupported(fmt::format(
-        "one particle cell needs {} tile entries, but maxStorageBufferRange is {} bytes",
-        rounds.entries, gpu.properties.limits.maxStorageBufferRange));
+        "one cell (a group of neighbouring particles) needs {} bytes for its list of tiles and "
+        "spheres, but maxStorageBufferRange is {} bytes",
+        rounds.entries * times * sizeof(std::uint32_t),
+        gpu.properties.limits.maxStorageBufferRange));
   }
   return rounds;
 }

@@ -45,8 +45,8 @@ const std::vector<Factor>& particle_factors() {
       choice("corners", {"4", "5", "6", "7", "8", "16", "32"}, "8", Decides::how_it_is_made,
              "the number of corners of each polygon that polygon_tess draws"),
       choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,
-             "which particle cells are culled: none, those outside the view frustum, or also those "
-             "hidden behind other particles (occlusion)"),
+             "which cells (groups of neighbouring particles) are culled: none, those outside the "
+             "view frustum, or also those hidden behind other particles (occlusion)"),
       choice("structure", {"static", "refit", "rebuild"}, "static", Decides::how_it_is_made,
              "how each frame updates the hierarchy that rays traverse: not at all (static), by "
              "refitting it to the moved spheres, or by rebuilding it"),

@@ -35,7 +35,8 @@ const std::vector<Factor>& volume_factors() {
            "a volume file (" + scene::volume_endings() +
                ", plain or compressed; FILE:NXxNYxNZ:TYPE for voxels without a header), "
                "generate:NAME:SIZE, generate:NAME:NXxNYxNZ, "
-               "analytic:PROBLEM:SIZE (a scene with an exact solution), or stress:CASE:VARIANT"),
+               "analytic:PROBLEM:SIZE (a scene with an exact solution), or stress:CASE:VARIANT "
+               "(a stress scene)"),
       choice(
           "voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", Decides::how_it_is_made,
           "how voxels are stored on the device: as 8- or 16-bit integers, floats, or half floats "
@@ -58,11 +59,11 @@ const std::vector<Factor>& volume_factors() {
                   "Euclidean norm of all components")),
       text("transfer_function", "haze",
            "the transfer function, which maps values to colours and opacities: the preset haze or "
-           "surfaces, a file with 256 RGBA entries, or own (the transfer function of the analytic "
-           "problem or stress case; surfaces for all other data)"),
+           "surfaces, or a file with 256 RGBA entries; own: the transfer function of the analytic "
+           "problem or stress case (surfaces for all other data)"),
       number("step", 1.0 / 64, 4096, "1", Decides::the_picture,
-             "the distance between samples in units of the smallest voxel spacing; own, here and "
-             "below: the stress case's value (the factor's default for all other data)",
+             "the distance between samples in units of the smallest voxel spacing; own: the stress "
+             "case's step (1 for all other data)",
              {std::string(own_level)}),
       choice(
           "quadrature", {"midpoint", "preintegrated", "cells", std::string(own_level)}, "midpoint",
@@ -70,10 +71,11 @@ const std::vector<Factor>& volume_factors() {
           "the rule for the ray integral; midpoint: one sample for each step; preintegrated: the "
           "transfer function is integrated between the values at both ends of a step; cells: a "
           "fourth-order rule, for which rays are cut at voxel planes, into ⌈1/step⌉ parts between "
-          "voxel planes, and at the kinks of the transfer function"),
+          "voxel planes, and at the kinks of the transfer function; own: the stress case's rule "
+          "(midpoint for all other data)"),
       choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_picture,
              "none, or gradient: shading by a headlight, with gradients computed by central "
-             "differences"),
+             "differences; own: the stress case's shading (none for all other data)"),
       choice("skip", {"none", "bricks", "distance"},
              std::string(technique::name_of(technique::RaycastOptions{}.skip)),
              Decides::how_it_is_made,
@@ -81,7 +83,8 @@ const std::vector<Factor>& volume_factors() {
              "bricks (distance)"),
       number("ert", 0, 0.5, "0.001953125", Decides::how_it_is_made,
              "early ray termination: the transmittance below which a ray ends, or 0 for never; the "
-             "default is half an 8-bit step",
+             "default is half an 8-bit step; own: the stress case's value (the default for all "
+             "other data)",
              {std::string(own_level)}),
       number("adapt", 0, 0.5, "0", Decides::how_it_is_made,
              "the error allowed for merging the samples of a nearly homogeneous brick into one "
@@ -96,10 +99,13 @@ const std::vector<Factor>& volume_factors() {
           {std::string(no_budget)}),
       text(
           "camera", "orbit_y:1/8",
-          "PATH:i/n (such as orbit_y:1/8 or path_z:3/36), random:SEED, "
+          "PATH:i/n (such as orbit_y:1/8 or path_z:3/36), random:SEED, or "
           "view:AZIMUTH/ELEVATION/DISTANCE (angles in degrees and distance in orbit radii, such as "
-          "view:45/20/0.8), or own"),
-      text("viewport", "256", "the image size in pixels: N for NxN, WxH, or own"),
+          "view:45/20/0.8); own: the stress case's camera (orbit_y:1/8 for all other data)"),
+      text(
+          "viewport", "256",
+          "the image size in pixels: N for NxN, or WxH; own: the stress case's image size (256 for "
+          "all other data)"),
   };
   return factors;
 }

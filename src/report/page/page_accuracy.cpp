@@ -113,7 +113,7 @@ Html summary_table(const std::vector<AccuracyScene>& scenes) {
 }
 
 Html order_table(const std::vector<AccuracyScene>& scenes) {
-  Rows rows{{"scene", "device", "family", "order with 95 % confidence interval",
+  Rows rows{{"scene", "device", "family", "order of convergence (95 % confidence interval)",
              "RMSE at the coarsest step", "RMSE at the finest step"}};
   for (const AccuracyScene& scene : scenes) {
     for (const accuracy::AccuracyFamily& family : scene.families) {

@@ -116,10 +116,12 @@ std::string quiet_line(std::int64_t first, std::int64_t last, std::size_t taken,
                        std::size_t count) {
   const std::string which =
       first == last ? std::to_string(first) : fmt::format("{}–{}", first, last);
-  return fmt::format("{:>7} {}", which,
-                     taken == count ? "without opacity"
-                     : taken == 0   ? "not taken, which does not affect the image"
-                                    : fmt::format("without opacity, {} of {} taken", taken, count));
+  return fmt::format(
+      "{:>7} {}", which,
+      taken == count ? "without opacity"
+      : taken == 0
+          ? "not taken by the device, which does not affect the image"
+          : fmt::format("without opacity; the device took {} of these {} samples", taken, count));
 }
 
 // Returns the end of the sequence of quiet rows that begins at `begin`.
@@ -249,7 +251,7 @@ std::string about_fewest(const accuracy::SpriteHistory& history) {
       "are drawn together{}: {}",
       accuracy::name_of(history.fewest_differs), count,
       history.stopped_early ? " (and perhaps when fewer are drawn)"
-                            : " (but correct if any of them is left out)",
+                            : " (but correct if even one of these spheres is left out)",
       ids);
 }
 

@@ -263,9 +263,9 @@ std::string sentence_of(const Observation& what) {
                  : fmt::format("the time is meaningless, because the image is wrong: {}",
                                text_of(what.because.front()));
     case Cause::residuals_as_stored:
-      return fmt::format("in {0}, the cost ratios to {1} agree with the stored ratios",
-                         counted(what.number("configurations"), "configuration", "configurations"),
-                         fmt::join(what.names, ", "));
+      return fmt::format("the cost ratios of this device to {} agree with the stored ratios in {}",
+                         fmt::join(what.names, ", "),
+                         counted(what.number("configurations"), "configuration", "configurations"));
     case Cause::residual_moved:
       return residual_moved(what);
     case Cause::off_the_line:
@@ -286,7 +286,8 @@ std::string sentence_of(const Observation& what) {
     case Cause::not_comparable:
       return "the image cannot be compared, because its size differs or it has non-finite values";
     case Cause::no_limit:
-      return "errors cannot be measured, because no scene of this plan has a limit image";
+      return "errors cannot be measured, because no scene of this plan has a limit image (the "
+             "image for a step size of 0)";
     case Cause::no_limit_any_more:
       return "the baselines contain an error for this scene, but the scene no longer has a limit "
              "image";

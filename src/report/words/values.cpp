@@ -199,8 +199,10 @@ std::string residual_moved(const Observation& what) {
     text += fmt::format(" in {:.0f} configurations", what.number("configurations"));
   }
   return text +
-         fmt::format("; the cost ratios to {} changed by more than their variation between runs",
-                     joined(what.names));
+         fmt::format(
+             "; the cost ratios of this device to {} changed by more than their variation between "
+             "runs",
+             joined(what.names));
 }
 
 std::string off_the_line(const Observation& what) {
