@@ -11,7 +11,10 @@
 
 namespace triptych::vulkan_backend {
 
-// The bindings of tiles.glsl, and of tile_grid.glsl for data that are read as texels.
+// The bindings of the `tiles` shaders. Names that end in `texels_binding` are texel buffers,
+// through which the shaders read the same data and the particles (tile_grid.glsl explains why). All
+// other names are storage buffers (tiles.glsl), except large_pixels_binding, which is a storage
+// image.
 enum TileBinding : std::uint32_t {
   camera_spheres_binding = first_free_binding,
   kept_binding,

@@ -19,7 +19,7 @@ namespace triptych::accuracy {
 struct LimitPicture {
   std::string key;  // equal for all records that share this limit image
   core::Image image;
-  core::Image uncertainty;  // per pixel, a bound on the distance from the exact limit
+  core::Image uncertainty;  // per pixel, a bound on the distance from the exact limit image
   std::optional<core::Image> closed_form;
 };
 
@@ -30,9 +30,9 @@ struct PictureError {
   double lattice = 0;
   double arithmetic = 0;
 };
-// Returns the errors of an image compared with its limit. `truth` is the reference image at the
-// sample positions of the device's image. Returns nullopt if the three images differ in size, or if
-// the device's image contains a value that is not finite.
+// Returns the errors of an image compared with its limit image. `truth` is the reference image at
+// the sample positions of the device's image. Returns nullopt if the three images differ in size,
+// or if the device's image contains a value that is not finite.
 [[nodiscard]] std::optional<PictureError> picture_error(const core::Image& picture,
                                                         const core::Image& truth,
                                                         const core::Image& limit);
@@ -43,11 +43,11 @@ struct AccuracyScene {
   std::string limit;  // LimitPicture::key; equal for scenes with the same limit image
   std::string scene;  // "camera=…,data=…": the factor levels that all cases share
   std::string data;
-  double uncertainty = 0;  // root mean square of the limit's uncertainty
-  // Root mean square difference between the limit and the closed-form solution, which the voxel
-  // grid and the transfer-function table cannot represent exactly.
+  double uncertainty = 0;  // root mean square of LimitPicture::uncertainty
+  // Root mean square difference between the limit image and the closed-form solution, which the
+  // voxel grid and the transfer-function table cannot represent exactly.
   std::optional<double> representation;
-  // Root mean square error caused by storing the limit with 8 bits per channel.
+  // The root mean square error that the limit image would have with 8 bits per channel.
   double eight_bits = 0;
   double nothing = 0;  // root mean square error of an empty image
   std::vector<AccuracyCase> cases;

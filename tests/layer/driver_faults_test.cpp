@@ -14,8 +14,9 @@ namespace {
 
 using testing::HasSubstr;
 
-// Whether some configurations lose all pixels, which is detected before images are compared. If a
-// copy is too short, the result depends on what the driver's memory contained before.
+// Whether the fault makes some configurations fail before images are compared, because none of the
+// pixels in their image was written. `perhaps`: a copy is too short, and the pixels that are not
+// copied may or may not look unwritten, depending on what the driver's memory contained before.
 enum class Undrawn : std::uint8_t { no, yes, perhaps };
 
 struct Fault {

@@ -8,8 +8,8 @@
 //   hierarchy_leaves    writes the spheres in the order of the tree, and the boxes of its leaves
 //   hierarchy_level     computes a level of boxes from the level below
 // The backend defines TRI_TREE_ORIGIN (vec4: the lower corner of the curve's grid, and the number of grid cells per
-// unit length), TRI_TREE_SHAPE (uvec4: the numbers of particles, levels, particles per leaf, and leaves with one
-// more particle), and TRI_STEP (uvec4), whose components are explained in each kernel.
+// unit length), TRI_TREE_SHAPE (uvec4: the number n of particles, the number of levels, ⌊n/2^levels⌋, and the number
+// of leaves with ⌊n/2^levels⌋ + 1 particles), and TRI_STEP (uvec4), whose components are explained in each kernel.
 layout(std430) TRI_BINDING(7) buffer Boxes { vec4 boxes[]; };              // lower and upper corner of each node
 layout(std430) TRI_BINDING(8) buffer TreeSpheres { vec4 tree_spheres[]; };  // in world space, in tree order
 layout(std430) TRI_BINDING(9) buffer TreeOrder { uint tree_order[]; };      // the particle index of each tree sphere

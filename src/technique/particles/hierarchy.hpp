@@ -15,7 +15,8 @@ namespace triptych::technique {
 struct HierarchyParameters {
   // The lower corner of the Hilbert curve's grid; w: grid cells per unit length.
   std::array<float, 4> origin{};
-  // The numbers of particles, levels, particles per leaf, and leaves with one more particle.
+  // The number of particles, the number of levels, and the number of particles in most leaves; the
+  // last component is the number of leaves that have one particle more than that.
   std::array<std::uint32_t, 4> shape{};
   std::array<std::uint32_t, 4> step{};
 };
@@ -52,8 +53,9 @@ class Hierarchy {
   [[nodiscard]] std::size_t order_words() const noexcept;   // their particle indices
   // Two lists of (position on the curve, particle).
   [[nodiscard]] std::size_t sorted_words() const noexcept;
-  // The number of particles with each of the 256 values of a digit in each run of the radix sort,
-  // followed by one total for each value.
+  // The counts of the radix sort. For each of its runs (see runs()), they contain the number of
+  // particles with each of the 256 values of the current digit, followed by one total for each
+  // value.
   [[nodiscard]] std::size_t scratch_words() const noexcept;
 
  private:

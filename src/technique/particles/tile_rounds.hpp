@@ -1,6 +1,7 @@
 #pragma once
-// The rounds in which `tiles` processes the cells (tiles.glsl). They are computed when a scene is
-// prepared.
+// The rounds in which `tiles` processes the cells (tiles.glsl). A cell is a group of neighbouring
+// particles (arrangement.hpp), and a round processes a range of cells. Rounds are computed when a
+// scene is prepared.
 
 #include <cstdint>
 #include <optional>

@@ -14,10 +14,11 @@ namespace {
 constexpr std::size_t entries = 256;
 constexpr double most_extinction = 8192;  // extinction per voxel length for an entry of opacity 1
 
-// The optical depth of a path and the moments of its colours. x is the optical depth from the
-// beginning of the path, in natural units (a depth x transmits e^−x of the light) and for cells
-// that are one voxel long. The members are ∫dx and, for each colour channel c, ∫c dx, ∫c·x dx and
-// ∫c·x² dx.
+// The optical depth of a path and the moments of its colours. A path is a part of a ray along which
+// the value changes linearly from one entry of the transfer function to another. x is the optical
+// depth from the beginning of the path, in natural units (a depth x transmits e^−x of the light)
+// and for cells that are one voxel long. The members are ∫dx and, for each colour channel c, ∫c dx,
+// ∫c·x dx and ∫c·x² dx.
 struct Moments {
   double depth = 0;
   std::array<double, 3> c0{};
@@ -116,8 +117,8 @@ class CellIntegral {
   Moments sum_;
 };
 
-// Writes the three texels for a path with these moments. If the path has no optical depth, its
-// colour is `colour`.
+// Writes the three texels that describe a path in the table (see preintegration.hpp), computed from
+// its moments. If the path has no optical depth, its colour is `colour`.
 void write(const Moments& m, const Entry& colour, std::array<float, 4>* texels) {
   texels[0] = {static_cast<float>(m.depth * std::numbers::log2e), colour[0], colour[1], colour[2]};
   texels[1] = texels[2] = {0, 0, 0, 0};

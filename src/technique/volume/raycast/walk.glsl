@@ -115,8 +115,9 @@ Leap leap(Leaps leaps, Ray ray, int i, int end) {
                              leaps.inverse_g.z < 0.0 ? back : reach);
   real3 at = (real3(face) * leaps.edge - leaps.p0) * leaps.inverse_g;
   real leave = min(at.x, min(at.y, at.z));
-  // No brick has the reach 0, but llvmpipe (Mesa 22.3) also runs helper invocations outside the triangle, which
-  // read 0. Without this condition, they would go from sample to sample, and all other invocations of the block
+  // `reach` is the distance to the nearest brick with the other visibility, which is at least 1. However, llvmpipe
+  // (Mesa 22.3) also runs helper invocations outside the triangle, which read 0 from the brick map. Without the
+  // condition reach > 0, they would advance by only one sample at a time, and all other invocations of the block
   // would wait for them.
   int next = reach > 0 && leave < real(end) ? int(ceil(leave - 0.5)) : end;
   return Leap(signed_reach > 0, clamp(next, i + 1, end));
