@@ -82,6 +82,23 @@ std::string label_of(std::string_view text) {
   return std::string(text);
 }
 
+// Removes the first line of the text and returns it.
+std::string_view take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return line;
+}
+
+std::string_view without_comment(std::string_view line) {
+  return trimmed(line.substr(0, line.find(';')));
+}
+
+// Returns the first word of an instruction.
+std::string_view operation_of(std::string_view instruction) {
+  return instruction.substr(0, instruction.find_first_of(" \t"));
+}
+
 struct Program {
   std::vector<Line> lines;
   std::map<std::string, std::size_t> labels;  // label → index of the next line
@@ -90,21 +107,17 @@ struct Program {
 Program parse(std::string_view assembly) {
   Program program;
   while (!assembly.empty()) {
-    const std::size_t end = assembly.find('\n');
-    std::string_view text = assembly.substr(0, end);
-    assembly.remove_prefix(end == std::string_view::npos ? assembly.size() : end + 1);
-    text = trimmed(text.substr(0, text.find(';')));
+    const std::string_view text = without_comment(take_line(assembly));
     if (text.ends_with(':')) {
       program.labels.emplace(label_of(text.substr(0, text.size() - 1)), program.lines.size());
       continue;
     }
-    const std::size_t blank = text.find_first_of(" \t");
-    const auto kind = kind_of(text.substr(0, blank));
+    const std::string_view operation = operation_of(text);
+    const auto kind = kind_of(operation);
     if (!kind) continue;
-    const bool jumps = *kind == Kind::branch && blank != std::string_view::npos;
-    program.lines.push_back({*kind,
-                             *kind == Kind::load ? fetch_of(text.substr(0, blank)) : Fetch::none,
-                             jumps ? label_of(trimmed(text.substr(blank))) : ""});
+    const bool jumps = *kind == Kind::branch;
+    program.lines.push_back({*kind, *kind == Kind::load ? fetch_of(operation) : Fetch::none,
+                             jumps ? label_of(trimmed(text.substr(operation.size()))) : ""});
   }
   return program;
 }
@@ -149,6 +162,15 @@ std::vector<std::span<const Line>> innermost_loops_of(const Program& program) {
 }
 
 }  // namespace
+
+std::string without_waits(std::string_view assembly) {
+  std::string result;
+  while (!assembly.empty()) {
+    const std::string_view line = take_line(assembly);
+    if (kind_of(operation_of(without_comment(line))) != Kind::wait) result.append(line) += '\n';
+  }
+  return result;
+}
 
 std::optional<AssemblyCounts> count_amd_instructions(std::string_view assembly) {
   const Program program = parse(assembly);

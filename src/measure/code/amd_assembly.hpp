@@ -3,6 +3,7 @@
 // one instruction per line, with basic blocks named "BB3:" (ACO) or "BB0_3:" (LLVM).
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace triptych::measure {
@@ -31,5 +32,8 @@ struct AssemblyCounts {
 
 // Returns nullopt if the text is not a disassembly of code for an AMD GPU.
 [[nodiscard]] std::optional<AssemblyCounts> count_amd_instructions(std::string_view assembly);
+
+// Returns the disassembly without the lines that contain a wait or a scheduling hint.
+[[nodiscard]] std::string without_waits(std::string_view assembly);
 
 }  // namespace triptych::measure

@@ -22,14 +22,18 @@ void add_loop(const InstructionCounts& loop, std::map<std::string, double>& stat
   statistics["Loop fetches"] = loop.fetches;
 }
 
+bool counts_instructions(const std::map<std::string, double>& statistics) {
+  return std::ranges::any_of(
+      statistics, [](const auto& each) { return each.first.starts_with("Instruction"); });
+}
+
 // The drivers that do not report the number of instructions compile with LLVM. The pass of LLVM
 // that inserts waits depends on memory addresses, so the number of waits differs from run to run.
-// For these drivers, waits are therefore not counted.
+// For these drivers, waits are therefore neither counted nor compared.
 void add_counted(std::string_view assembly, std::map<std::string, double>& statistics) {
   const auto counts = count_amd_instructions(assembly);
   if (!counts) return;
-  const bool reported = std::ranges::any_of(
-      statistics, [](const auto& each) { return each.first.starts_with("Instruction"); });
+  const bool reported = counts_instructions(statistics);
   const auto number_of = [&](const InstructionCounts& counted) {
     return reported ? counted.all() : counted.all() - counted.wait;
   };
@@ -56,8 +60,9 @@ void CompiledCode::add(const std::string& name, std::map<std::string, double> st
   });
   record::Executable executable{.statistics = std::move(statistics)};
   if (!assembly.empty()) {
+    const bool reported = counts_instructions(executable.statistics);
     add_counted(assembly, executable.statistics);
-    executable.assembly = core::content_hash(assembly);
+    executable.assembly = core::content_hash(reported ? assembly : without_waits(assembly));
     compiled_.listings.emplace(executable.assembly, std::move(assembly));
   }
   if (executable.statistics.empty() && executable.assembly.empty()) return;

@@ -53,11 +53,14 @@ TEST(CompiledCode, WaitsCountOnlyIfTheDriverCountsThem) {
       "\ts_cbranch_scc1 .LBB0_1\n\ts_endpgm\n";
   CompiledCode code;
   code.add("llvm", {{"VGPRS", 8}}, assembly);
+  code.add("other waits", {{"VGPRS", 8}}, std::string("\ts_nop 0\n") + assembly);
   code.add("aco", {{"Instructions", 4}}, assembly);
   const Compiled compiled = code.take();
   EXPECT_THAT(compiled.code.at("llvm").statistics,
               AllOf(Contains(Pair("Instructions", 2)), Contains(Pair("Loop instructions", 2)),
                     Not(Contains(Key("Loop waits")))));
+  EXPECT_EQ(compiled.code.at("llvm").assembly, compiled.code.at("other waits").assembly);
+  EXPECT_NE(compiled.code.at("llvm").assembly, compiled.code.at("aco").assembly);
   EXPECT_THAT(compiled.code.at("aco").statistics,
               AllOf(Contains(Pair("Instructions", 4)), Contains(Pair("Loop instructions", 3)),
                     Contains(Pair("Loop waits", 1))));
