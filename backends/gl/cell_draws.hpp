@@ -30,8 +30,8 @@ class CellDraws {
   Buffer commands_;
 };
 
-// Returns the same cells with about 1/stride of their particles. The counts are rounded so that all
-// cells together contain one in `stride` of the particles.
+// Returns the given cells, but with only about 1/stride of the particles of each cell. The counts
+// are rounded so that all returned cells together contain one in `stride` of the particles.
 [[nodiscard]] std::vector<technique::Cell> thinned(std::span<const technique::Cell> cells,
                                                    int stride);
 

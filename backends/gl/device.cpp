@@ -25,8 +25,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// A sampler whose error is below this value is as good as interpolation in the shader, whose
-// rounding errors are about 1e-6.
+// A sampler whose error is below this fraction of the value range is as good as interpolation in
+// the shader, whose rounding errors are about 1e-6.
 constexpr double exact_filter = 1e-5;
 
 struct Entry {
@@ -135,8 +135,8 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
     return prepare_current(work);
   }
 
-  // Preparing the timed frame links its programs, so their code is reported. Shader variants that a
-  // driver compiles only at the first draw are not included.
+  // Prepares the work, because that links the programs of a timed frame and makes the driver report
+  // their code. Shader variants that a driver compiles only at the first draw are not included.
   [[nodiscard]] measure::Compiled compile(const measure::Work& work) override {
     const Current current(*context_);
     const Api& gl = context_->gl();

@@ -38,8 +38,8 @@ struct Stage {
 };
 
 // Creates a stage from the given files of src/technique/, in the given order. They follow the
-// #version line, `constant_lines` and both preludes. Uses the newest GLSL version that the context
-// supports.
+// #version line, `constant_lines`, and the preludes of this backend and of src/technique/. Uses the
+// newest GLSL version that the context supports.
 [[nodiscard]] Stage shared_stage(const Api& gl, GLenum type, std::string_view constant_lines,
                                  std::span<const std::string_view> files);
 

@@ -34,8 +34,9 @@ const std::map<std::string_view, decltype(&prepare_tiles)> particle_techniques{
 Session open_session(const Found& found) {
   return checked([&] {
     const cl::Context context(found.device);
-    // PoCL's compiler vectorises the loops inside a work item; other compilers vectorise across
-    // work items.
+    // Kernels process samples in batches of 32 only on PoCL's CPU devices, because only PoCL's
+    // compiler vectorises the loops inside a work item. Other compilers vectorise across work
+    // items.
     const bool vectorises_loops = found.info.driver == "pocl" && !found.info.cpu_features.empty();
     return Session{.device = found.device,
                    .context = context,

@@ -99,7 +99,7 @@ struct Session {
   cl::Device device;
   cl::Context context;
   Queue queue;  // an in-order queue with profiling
-  // The batch size of the kernels, in samples (volume.cl).
+  // The number of samples of a ray that a work item processes together (TRI_BATCH in raycast.cl).
   int batch = 1;
   measure::MemoryLedger held = {};  // memory of the objects that make_buffer and make_image created
 };

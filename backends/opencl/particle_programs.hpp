@@ -45,7 +45,7 @@ struct ParticleConstants {
   bool count = false;
 };
 
-// Returns the constants of the timed build.
+// Returns the constants for programs that are used for timing, which count nothing.
 [[nodiscard]] ParticleConstants constants_of(const measure::ParticleWork& work, Sprite sprite);
 
 // The edge of a tile in pixels, and the edge of a coarse tile in tiles. A particle that covers more

@@ -17,12 +17,12 @@
 
 namespace triptych::opencl_backend {
 
-// Returns the constants of the timed build for this work.
+// Returns the constants for the program that is used for timing, which counts nothing.
 [[nodiscard]] Constants constants_of(const Session& session, const measure::VolumeWork& work);
 
 class VolumeFrames final : public measure::Prepared, public measure::TracesPixel {
  public:
-  // Compiles the timed build and the counting build, and uploads everything.
+  // Compiles the program twice, for timing and for counting its work, and uploads all data.
   VolumeFrames(const Session& session, Programs& programs, VolumeCache& volumes,
                const measure::VolumeWork& work, Constants constants);
 
@@ -40,7 +40,7 @@ class VolumeFrames final : public measure::Prepared, public measure::TracesPixel
 
   Session session_;
   Programs& programs_;
-  Constants constants_;  // constants of the timed build
+  Constants constants_;  // for the program that is used for timing
   int width_;
   int height_;
   std::string hash_;

@@ -40,7 +40,8 @@ const Entry* find_entry(std::string_view technique) {
   return found != entries.end() ? found : nullptr;
 }
 
-// A filter whose error is below this value is as good as interpolation in single precision.
+// A texture filter whose error is below this fraction of the value range counts as exact, because
+// it is as good as interpolation in single precision.
 constexpr double exact_filter = 1e-5;
 
 // Returns the filter error for each VoxelFormat; nullopt if the device cannot sample the format or
@@ -87,10 +88,11 @@ std::optional<double> Device::hardware_error(scene::VoxelFormat format) const {
   return filter_errors_.at(static_cast<std::size_t>(format));
 }
 
-// On all devices with filtering hardware, an exact filter is faster than eight fetches and their
-// arithmetic. Of the formats with an exact filter, R32F is the fastest on CPU devices, and no
-// slower than others elsewhere as long as the volume fits into the caches. A volume that the device
-// cannot store as one image is drawn in parts, which is impossible with hardware samplers.
+// Prefers the hardware sampler if its filter is exact, because on all devices with filtering
+// hardware, such a filter is faster than eight fetches and their arithmetic. Of the formats with an
+// exact filter, R32F is the fastest on CPU devices, and no slower than others elsewhere as long as
+// the volume fits into the caches. A volume that the device cannot store as one image is drawn in
+// parts, which is impossible with hardware samplers.
 measure::VolumePath Device::default_path(const measure::VolumeKind& volume) const {
   const scene::VoxelFormat native = volume.native;
   if (gpu_.is_cpu() && volume.may_be_packed() &&
@@ -137,7 +139,8 @@ std::unique_ptr<measure::Prepared> Device::prepare(const measure::Work& work) {
   });
 }
 
-// Preparing the work builds all pipelines of the timed frame, but draws nothing.
+// Prepares the work, because that builds all pipelines of a timed frame, and returns the code that
+// the driver reports for these pipelines. Draws nothing.
 measure::Compiled Device::compile(const measure::Work& work) {
   if (!gpu_.reports_code) {
     throw core::NotSupported(

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers that the feature probes share.
+// Helpers for the feature probes (features.hpp).
 
 #include <array>
 #include <cstdint>

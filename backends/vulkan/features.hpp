@@ -6,7 +6,8 @@
 
 namespace triptych::vulkan_backend {
 
-// Returns the feature probes. They keep a reference to the Gpu.
+// Returns the feature probes, each of which checks that the driver executes one feature of the API
+// correctly. They keep a reference to the Gpu.
 [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes(const Gpu& gpu);
 
 }  // namespace triptych::vulkan_backend

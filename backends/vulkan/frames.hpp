@@ -17,8 +17,8 @@ class Frames {
   [[nodiscard]] bool can_count() const noexcept { return counters_.has_value(); }
   void record_counters(const Recording& counting);
 
-  // Submits the commands for this purpose, and fills in times and statistics. The caller reads the
-  // counters, which the shaders of the counting build have written.
+  // Submits the commands for this purpose, and fills in times and statistics, but not the counters
+  // that shaders compiled for counting write. The caller reads these counters.
   [[nodiscard]] measure::Frame submit(measure::Purpose purpose) const;
 
  private:

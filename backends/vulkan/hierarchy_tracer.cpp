@@ -186,7 +186,8 @@ bool HierarchyTracer::all_ended() const {
   return true;
 }
 
-// Because the camera does not move, every frame needs as many dispatches as the first frame.
+// Creates the pipelines, builds the hierarchy, and counts the dispatches that tracing needs.
+// Because the camera does not move, every frame needs the same number of dispatches.
 void HierarchyTracer::prepare(const Layout& layout, vk::DescriptorSet set) {
   for (const std::string_view pass : build_passes) {
     build_.push_back(compute_pipeline(gpu_, layout, spirv(pass), constants_));

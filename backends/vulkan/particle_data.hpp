@@ -42,8 +42,8 @@ struct ParticleConstants {
 // Returns the number of pixels that must be added to the size of a point so that this device draws
 // at least the intended square.
 [[nodiscard]] float point_margin(const Gpu& gpu);
-// Returns the size of the largest square that a point can replace. That square plus the margin is
-// the largest point.
+// Returns the edge length, in pixels, of the largest square that this device can draw as a point.
+// It is the device's largest point size minus point_margin().
 [[nodiscard]] float largest_point(const Gpu& gpu);
 
 // Returns the vertex attribute format of a particle's colour.
@@ -74,7 +74,8 @@ class ParticleData {
 
   void poison_counters() const;
   void clear_counters(const vk::raii::CommandBuffer& commands) const;
-  // Returns the counts of a counting frame. The device must have finished that frame.
+  // Returns the counters of a frame whose shaders counted their work. The device must have finished
+  // that frame.
   [[nodiscard]] record::Counts counts(technique::Method method, technique::Culling culling,
                                       const core::Image& picture) const;
 

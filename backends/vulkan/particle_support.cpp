@@ -36,8 +36,9 @@ std::optional<std::string> storage_reason(const Gpu& gpu, const scene::ParticleS
   return std::nullopt;
 }
 
-// The corners are distributed over the four edges of the patch outline, so an edge gets at most a
-// quarter of them, rounded up.
+// Returns the reason why the tessellator cannot generate polygons with this many corners; nullopt
+// if it can. The corners are distributed over the four edges of the patch outline, so an edge gets
+// at most a quarter of them, rounded up.
 std::optional<std::string> corners_reason(const Gpu& gpu, int corners) {
   const std::uint32_t most = 4 * gpu.properties.limits.maxTessellationGenerationLevel;
   if (static_cast<std::uint32_t>(corners) <= most) return std::nullopt;

@@ -26,8 +26,8 @@ class ParticleTarget {
 
   [[nodiscard]] vk::Extent3D extent() const noexcept { return colour_.extent(); }
   [[nodiscard]] const Image& depth() const noexcept { return depth_; }
-  // Returns one of the two passes. A pipeline that was created for it can also be used in the other
-  // pass.
+  // Returns the render pass that clears the attachments. A pipeline that was created for it can
+  // also be used in the render pass that keeps their contents.
   [[nodiscard]] const vk::raii::RenderPass& pass() const noexcept { return clearing_; }
 
   // Begins a pass, which leaves all three attachments ready to be copied from. A continued pass

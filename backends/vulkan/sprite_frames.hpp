@@ -18,7 +18,8 @@
 
 namespace triptych::vulkan_backend {
 
-// A stage before the fragment stage, with the names of its timed build and its counting build.
+// A stage before the fragment stage, with the names of two SPIR-V files: one that is used for
+// timing, and one that also counts its work.
 struct SpriteStage {
   vk::ShaderStageFlagBits stage;
   std::string_view timed;
@@ -50,8 +51,8 @@ struct SpriteTechnique {
   // The draw of the second pass of occlusion culling, if its stages differ from those of the first
   // pass.
   std::optional<SpriteDraw> later;
-  // The second draw, which covers only the particles in rest_runs. `point` uses it for spheres that
-  // exceed the largest point.
+  // The second draw, which covers only the particles in rest_runs. The technique `point` uses it
+  // for spheres that exceed the largest point.
   std::optional<SpriteDraw> rest;
   std::vector<ParticleRun> rest_runs;
 };

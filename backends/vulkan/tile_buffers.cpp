@@ -133,7 +133,7 @@ void TileBuffers::clear(const vk::raii::CommandBuffer& commands) const {
   if (small_) clear_pixels(commands);
 }
 
-// Leaves the count of small spheres, which is the first word, unchanged.
+// Sets the counts of a round to 0. The first word, which counts small spheres, stays unchanged.
 void TileBuffers::start_round(const vk::raii::CommandBuffer& commands) const {
   commands.fillBuffer(tiles_.get(), word, 5 * word, 0);
   barrier(commands);

@@ -66,7 +66,7 @@ class TileBuffers {
   const Gpu& gpu_;
   std::uint32_t columns_;
   std::uint32_t rows_;
-  vk::DeviceSize plane_;  // in bytes
+  vk::DeviceSize plane_;  // bytes of one word per pixel; pixels_ consists of two such planes
   bool small_;
   Buffer camera_spheres_;
   Buffer kept_;

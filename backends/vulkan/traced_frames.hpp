@@ -46,15 +46,15 @@ class Tracer {
   // same nodes.
   [[nodiscard]] virtual bool counts_nodes() const = 0;
   virtual void bind(vk::DescriptorSet set) const = 0;
-  // Called once after bind(). Creates the pipelines of the timed build, and the structure.
+  // Called once after bind(). Creates the structure, and the pipelines that are used for timing.
   virtual void prepare(const Layout& layout, vk::DescriptorSet set) = 0;
-  // Creates the pipelines of the counting build.
+  // Creates the pipelines whose shaders also count their work.
   virtual void prepare_counting(const Layout& layout) = 0;
   // Records a frame up to the point where each pixel has the keys of its nearest sphere, which
   // encode the depth and the particle (keys.glsl). The descriptor set must be bound.
   virtual void record(const vk::raii::CommandBuffer& commands, const Layout& layout,
                       bool counting) const = 0;
-  // Returns the device code of the timed build.
+  // Returns the device code that is used for timing.
   [[nodiscard]] virtual std::vector<std::string_view> codes() const = 0;
 };
 
