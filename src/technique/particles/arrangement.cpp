@@ -29,7 +29,9 @@ std::vector<std::uint32_t> by_id(const scene::ParticleSet& set) {
 // crowded region is divided even where no plane can separate its particles.
 constexpr std::uint32_t longest_run = 4 * particles_per_cell;
 
-// A run of particles within one part of the division, in ascending order of their ids.
+// The particles of one part of space (division.hpp), or some of them if there are more than
+// `longest_run`, in ascending order of their ids. Each run becomes a cell of the arrangement. lo
+// and hi are the corners of the box around the spheres.
 struct Run {
   glm::vec3 lo{std::numeric_limits<float>::infinity()};
   glm::vec3 hi{-std::numeric_limits<float>::infinity()};
@@ -87,7 +89,8 @@ class Runs {
     }
   }
 
-  // Creates the runs of all parts. A part with more than `longest_run` particles gets several runs.
+  // Creates the runs of all parts of space. A part with more than `longest_run` particles gets
+  // several runs.
   void make_runs() {
     first_run_.resize(division_.parts());
     for (std::uint32_t place = 0; place < set_.count(); ++place) {

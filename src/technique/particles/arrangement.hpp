@@ -13,8 +13,9 @@
 
 namespace triptych::technique {
 
-// A run of particles, and the box around their spheres. The layout is the same as in cells.glsl
-// (std430) and in the OpenCL kernels.
+// A cell: about 512 neighbouring particles, which are consecutive in the drawing order
+// (Arrangement), and the box around their spheres. `begin` is the index of the first particle in
+// that order. The layout is the same as in cells.glsl (std430) and in the OpenCL kernels.
 struct Cell {
   std::array<float, 3> lo{};
   std::uint32_t begin = 0;

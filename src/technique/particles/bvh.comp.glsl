@@ -51,8 +51,8 @@ uint intersections_tested = 0u;
 ivec2 beam_pixel(int k) { return first_pixel + ivec2(k % TRI_BEAM_X, k / TRI_BEAM_X); }
 bool in_picture(ivec2 pixel) { return pixel.x < u.viewport.x && pixel.y < u.viewport.y; }
 
-// Computes the sides of the beam. They lie 1/64 pixel outside its outermost rays, which is also the margin of
-// sprites, because a silhouette computed in single precision exceeds the exact silhouette by less than 1/64 pixel.
+// Computes the sides of the beam. They lie 1/64 pixel outside its outermost rays, because a silhouette computed in
+// single precision may exceed the exact silhouette, by less than 1/64 pixel. (Sprites have the same margin.)
 void open_beam(uint beam) {
   uint block = beam / 64u;
   uint n = beam % 64u;
@@ -82,10 +82,11 @@ float highest(vec3 n, vec3 lo, vec3 hi) {
 }
 
 // Returns whether the beam crosses the box and something in the box may be visible. `nearest` receives the smallest
-// distance from the eye to the box along the view axis. The tolerance for rounding is 2⁻¹⁸ of the distance from the
-// eye to the farthest point of the box. With u = 2⁻²⁴, it covers the rounding of products and sums (8u), the
-// rounding of the axes (u) and, for `nearest`, the error in the distance of a surface, 24u·(|C| + r). Enlarging the
-// box by 2.4e-7 of the eye's coordinates covers the rounding of the eye.
+// distance from the eye to the box along the view axis. The tolerance for rounding is 2⁻¹⁸ of the distance from the eye
+// to the farthest point of the box. With u = 2⁻²⁴, it covers the rounding of products and sums (8u), the rounding of
+// the camera's axes (u) and, for `nearest`, the error in the distance of a sphere's surface. For a sphere of radius r
+// whose centre is at C relative to the eye, this error is 24u·(|C| + r). Enlarging the box by 2.4e-7 of the eye's
+// coordinates covers the rounding of the eye.
 bool may_show(vec3 world_lo, vec3 world_hi, out float nearest) {
   TRI_PRECISE vec3 around = 2.4e-7 * abs(u.eye.xyz);
   TRI_PRECISE vec3 lo = (world_lo - u.eye.xyz) - around;

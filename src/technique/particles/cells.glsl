@@ -1,4 +1,5 @@
-// Declares the cells of the arrangement, and tests whether a cell can be visible.
+// Declares the cells, which are groups of about 512 neighbouring particles (particles/arrangement.hpp), and tests
+// whether a cell can be visible.
 struct Cell {
   vec3 lo;
   uint begin;

@@ -1,7 +1,7 @@
-// Include this after cull.glsl. Each invocation tests whether the box of one cell intersects the view, and writes
-// one draw command for the cell. The command of a culled cell is empty, so the cells are always drawn in the order
-// of the arrangement. TRI_INSTANCED: 1 if each particle is an instance of four vertices, 0 if it is a single
-// vertex.
+// Include this after cull.glsl. Each invocation tests whether the box of one cell (a group of neighbouring particles,
+// cells.glsl) intersects the view, and writes one draw command for the cell. The command of a culled cell is empty, so
+// the other cells are always drawn in the same order. TRI_INSTANCED: 1 if each particle is an instance of four
+// vertices, 0 if it is a single vertex.
 layout(local_size_x = 64) in;
 
 struct DrawCommand {

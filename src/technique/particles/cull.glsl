@@ -1,7 +1,8 @@
-// Include this after cells.glsl, and after occlusion.glsl if TRI_OCCLUSION is not 0. With occlusion culling, a
-// frame has two draws. TRI_OCCLUSION is 1 in the first draw, which draws the cells that were visible in the
-// previous frame. It is 2 in the second draw, which draws the cells that have become visible since then and records
-// which cells are visible in this frame. Without occlusion culling, it is 0 or undefined.
+// Include this after cells.glsl, and after occlusion.glsl if TRI_OCCLUSION is not 0. Particles are culled in groups
+// called cells. With occlusion culling, a frame has two draws. TRI_OCCLUSION is 1 in the first draw, which draws the
+// cells that were visible in the previous frame. TRI_OCCLUSION is 2 in the second draw, which draws the cells that have
+// become visible since then and records which cells are visible in this frame. Without occlusion culling, TRI_OCCLUSION
+// is 0 or undefined.
 #ifndef TRI_OCCLUSION
 #define TRI_OCCLUSION 0
 #endif

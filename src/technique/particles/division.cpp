@@ -121,8 +121,8 @@ class PlaneSearch {
     }
   }
 
-  // Returns the plane that saves the most work, or nullopt if no plane saves more than the price of
-  // one more part.
+  // Returns the plane that saves the most work, or nullopt if no plane saves more than `price`
+  // times the surface area of the box around all spheres. (division.hpp defines the cost of a box.)
   [[nodiscard]] std::optional<Plane> best(double price) const {
     Group all;
     for (const Group& group : by_axis_[0]) all.add(group);
@@ -214,7 +214,8 @@ void Division::divide(Crowd all) {
   while (!open.empty()) {
     const Crowd crowd = open.back();
     open.pop_back();
-    // No plane can save more than the entire cost of this part.
+    // The saving of a plane is less than the cost of this part, which is its number of particles
+    // times its surface area.
     if (static_cast<double>(crowd.places.size()) <= price_) continue;
     const std::optional<Plane> plane = PlaneSearch(scene_, crowd.places).best(price_);
     if (!plane) continue;

@@ -29,7 +29,8 @@ class Grid {
 
 // Divides space according to the particles in it. It starts with the cells of a grid. Then it
 // repeatedly divides a cell in two if its particles are distributed so unevenly that the division
-// saves work. For example, it separates a wall from the particles behind it.
+// saves work. For example, it separates a wall from the particles behind it. The undivided cells
+// and the results of these divisions are called parts.
 //
 // The cost of a box with n particles is n times the probability that it is visible, which is
 // proportional to its surface area (the surface area heuristic of MacDonald and Booth, Heuristics

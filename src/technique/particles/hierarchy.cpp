@@ -54,7 +54,7 @@ Hierarchy::Hierarchy(const Arrangement& arrangement) {
 Hierarchy::Hierarchy(std::uint32_t particles, const std::array<float, 3>& low, float edge) {
   const std::uint32_t levels = levels_of(particles);
   // If the set has no extent, or if the grid's scale would exceed the largest float, all particles
-  // get the same position on the curve.
+  // get the same position on the Hilbert curve.
   const bool extended = edge > 0 && grid_cells / edge <= std::numeric_limits<float>::max();
   parameters_.origin = {low[0], low[1], low[2], extended ? grid_cells / edge : 0.0F};
   parameters_.shape = {particles, levels, particles >> levels,

@@ -1,7 +1,7 @@
-// The hierarchy of `bvh`: a complete binary tree over the particles in Hilbert-curve order. Nodes are numbered from
-// 1, as in a binary heap. Each of the 2^levels leaves contains a run of ⌊n/2^levels⌋ of the n particles, or one
-// more. The tree therefore needs no pointers, and its shape depends only on n (technique::Hierarchy). These kernels
-// build it:
+// The hierarchy of the technique `bvh`: a complete binary tree over the particles in Hilbert-curve order. Nodes are
+// numbered from 1, as in a binary heap. Each of the 2^levels leaves contains a run of ⌊n/2^levels⌋ of the n particles,
+// or one more. The tree therefore needs no pointers, and its shape depends only on n (technique::Hierarchy). These
+// kernels build it:
 //   hierarchy_keys      computes the position of each particle on the curve
 //   hierarchy_count, _rows, _totals, _scatter   perform one of the four passes of a stable radix sort; each pass
 //                       sorts by eight bits of the position

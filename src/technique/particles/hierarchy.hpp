@@ -1,5 +1,6 @@
 #pragma once
-// The shape of the hierarchy that `bvh` builds on the device (hierarchy.glsl explains it).
+// The shape of the bounding-volume hierarchy that the technique `bvh` builds on the device
+// (hierarchy.glsl explains it).
 
 #include <array>
 #include <cstddef>
@@ -47,7 +48,8 @@ class Hierarchy {
   // Mesa's limit on loop iterations (technique/volume/long_rays.hpp).
   [[nodiscard]] std::uint32_t runs() const noexcept;
 
-  // The sizes of the buffers in words. Each is at least 4, because no API allows an empty buffer.
+  // The sizes of the buffers in words of four bytes. Each is at least 4, because no API allows an
+  // empty buffer.
   [[nodiscard]] std::size_t box_words() const noexcept;     // two corners of four words per node
   [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in tree order
   [[nodiscard]] std::size_t order_words() const noexcept;   // their particle indices

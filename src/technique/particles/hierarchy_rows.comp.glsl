@@ -1,6 +1,7 @@
-// Each invocation processes one value of the digit. It replaces the counts of the runs (hierarchy_count) by their
-// prefix sums, which are the positions of the runs among all particles with this value, and stores the total.
-// TRI_STEP is the same as for hierarchy_count.
+// Each invocation processes one of the 256 values of the radix sort's current digit. hierarchy_count has counted the
+// particles with this value in each run of particles. The invocation replaces these counts by their prefix sums, which
+// are the positions of the runs among all particles with this value, and stores the total. TRI_STEP is the same as for
+// hierarchy_count.
 layout(local_size_x = 64) in;
 
 void main() {

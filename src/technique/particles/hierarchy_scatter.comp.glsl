@@ -1,5 +1,5 @@
-// Each invocation copies the particles of one run to their positions in the output list. TRI_STEP is the same as for
-// hierarchy_count.
+// Each invocation copies one run of particles to their positions in the output list of the radix sort. TRI_STEP is the
+// same as for hierarchy_count.
 layout(local_size_x = 64) in;
 
 void main() {

@@ -1,5 +1,5 @@
-// A single invocation replaces the total of each value of the digit (hierarchy_rows) by the position at which the
-// particles with this value begin.
+// hierarchy_rows has stored the total number of particles for each value of the radix sort's current digit. A single
+// invocation replaces each total by the position at which the particles with this value begin.
 layout(local_size_x = 1) in;
 
 void main() {

@@ -1,7 +1,7 @@
-// Include this after cull.glsl. Each work group processes 32 cells, with one invocation for each cell. It selects
-// the cells to draw and computes the number of mesh groups that each of these cells needs. TRI_CULLED (0 or 1):
-// whether cells are culled. TRI_SHARE (uvec2): only every x-th cell is drawn, with only the first 1/y of its
-// particles.
+// Include this after cull.glsl. Each work group processes 32 cells, with one invocation for each cell (a group of
+// neighbouring particles, cells.glsl). It selects the cells to draw and computes the number of mesh work groups that
+// each of these cells needs. TRI_CULLED (0 or 1): whether cells are culled. TRI_SHARE (uvec2): only every x-th cell is
+// drawn, with only the first 1/y of its particles.
 layout(local_size_x = 32) in;
 taskPayloadSharedEXT CellList list;
 shared uint drawn_count[32];

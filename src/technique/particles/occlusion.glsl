@@ -1,6 +1,6 @@
-// Include this after cells.glsl. Finds the cells that are hidden in an image that already contains some of the
-// cells. To do so, each cell is compared with the farthest depth in each block of 16×16 pixels. Depth is reversed,
-// so the farthest depth is the smallest value.
+// Include this after cells.glsl. Finds the cells (groups of particles) that are hidden in an image into which some of
+// the cells have already been drawn. To do so, each cell is compared with the farthest depth in each block of 16×16
+// pixels. Depth is reversed, so the farthest depth is the smallest value.
 layout(std430) TRI_BINDING(8) readonly buffer VisibleBefore { uint visible_before[]; };  // in the previous frame
 layout(std430) TRI_BINDING(9) writeonly buffer VisibleNow { uint visible_now[]; };
 layout(std430) TRI_BINDING(10) readonly buffer Farthest { uint farthest[]; };  // farthest depth per block, as a bit pattern

@@ -14,7 +14,8 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
   const bool in_tiles = tiles || rasterizer == SpriteRasterizer::in_tiles;
   switch (options.fault) {
     case ParticleFault::wrong_sense:
-      // `tiles` always rejects whole spheres by the depth of their front, regardless of the option.
+      // The technique `tiles` always rejects hidden spheres by the depth of their front, regardless
+      // of the option conservative_depth.
       if (tiles || options.conservative_depth) return std::nullopt;
       return "the injected fault wrong_sense requires conservative_depth=on, because otherwise no "
              "fragment is rejected early";

@@ -1,7 +1,7 @@
-// Computes the box of a sphere for an acceleration structure. Include this after sphere_box.glsl. The driver
-// traverses the structure with rays and boxes in single precision, and no specification defines how its arithmetic
-// rounds. The box must contain every point that the intersection test for the sphere can report. With u = 2⁻²⁴, it is
-// therefore larger than the sphere by
+// Computes the box of a sphere for an acceleration structure. Include this after sphere_box.glsl. The driver traverses
+// the structure with rays and boxes in single precision, and no specification defines how its arithmetic rounds. The
+// box must contain every point that the intersection test for the sphere can report. With u = 2⁻²⁴, and for a sphere
+// with centre c and radius r, the box is therefore larger than the sphere by
 //   2⁻¹⁹·(|eye| + |c| + r)·l  for the rounding of the eye and of the ray's direction (u times the distance in each
 //                             component), for the driver's differences and divisions (a few u more), and for the
 //                             error in the distance of a hit, 24u·(|c| + r). That error is along the view axis,

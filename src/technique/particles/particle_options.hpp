@@ -23,8 +23,8 @@ enum class Structure : std::uint8_t { built_once, refitted, rebuilt };
 [[nodiscard]] ComputedAt computed_at(std::string_view name);  // throws InputError
 [[nodiscard]] Culling culling(std::string_view name);         // throws InputError
 
-// Faults that can be injected to prove that the gate finds them. In shaders and kernels, a fault is
-// a compile-time constant unless it only changes a parameter.
+// Faults that can be injected to prove that the gate (Triptych's regression check) finds them. In
+// shaders and kernels, a fault is a compile-time constant unless it only changes a parameter.
 enum class ParticleFault : std::uint8_t {
   none = 0,
   small_sprite = 1,     // every sprite is 1 % smaller than the silhouette of its sphere

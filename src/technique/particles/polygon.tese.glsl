@@ -10,8 +10,8 @@ TRI_LINK(1) flat out vec4 sprite_colour;
 TRI_LINK(2) flat out uint sprite_id;
 TRI_LINK(3) out vec3 sprite_ray;
 
-// Returns the index of a vertex on the outline, counting along the outline from (0, 0). Edge e (0: u = 0, 1:
-// v = 0, 2: u = 1, 3: v = 1) has (n + e)/4 parts, as in polygon.tesc.glsl.
+// Returns the index, from 0 to n − 1, of a vertex on the outline of the tessellated quad, counting along the outline
+// from (0, 0). polygon.tesc.glsl divides edge e (0: u = 0, 1: v = 0, 2: u = 1, 3: v = 1) into ⌊(n + e)/4⌋ parts.
 int outline_index(vec2 place, int n) {
   int parts0 = n / 4;
   int parts1 = (n + 1) / 4;

@@ -1,6 +1,6 @@
-// Declarations that all passes of `tiles` share (tiles.glsl lists the passes): the grid of tiles, and all read-only
-// data. Include this after keys.glsl. The data are read as texels, because a software device fetches texels for all
-// lanes at once but loads from storage buffers lane by lane.
+// Declarations that all passes of the technique `tiles` share: the grid of tiles, and all read-only data. tiles.glsl
+// lists the passes, and explains rounds and entries. Include this after keys.glsl. The data are read as texels, because
+// a software device fetches texels for all lanes at once but loads from storage buffers lane by lane.
 
 #define TRI_TILE 16             // number of pixels along the edge of a tile
 #define TRI_SMALL_EDGE 6        // maximum edge, in pixels, of a small sphere's rectangle; llvmpipe is fastest with 6

@@ -84,8 +84,10 @@ class NeedBound {
     return {.pixels = pixels, .entries = columns * rows, .large = 1, .small = small};
   }
 
-  // Returns the number of pixels along one axis between the two tangents of the sphere, which
-  // intersect the image plane at (a·z ± r·√(a² + z² − r²))/(z² − r²), clipped to ±half. Three
+  // Returns the number of pixels along one axis of the image that a sphere may cover. r is its
+  // radius, a the coordinate of its centre along this axis, and z its distance along the view axis.
+  // The two tangents of the sphere intersect the image plane, which is at distance 1 from the eye,
+  // at (a·z ± r·√(a² + z² − r²))/(z² − r²). This interval is clipped to the image, ±half. Three
   // pixels are added for the margin and for rounding, so the result exceeds the size of a small
   // sphere by less than `slack`. The result is not positive if the sphere is not visible.
   [[nodiscard]] double extent(double a, double z, double r, double half) const {
@@ -138,7 +140,7 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
     need.add(more);
   }
   finish();
-  constexpr double few = 2;  // number of spheres per pixel
+  constexpr double few = 2;  // average number of spheres that are drawn into a pixel
   out.at_once = out.rounds.size() == 1 && covered <= few * pixels;
   return out;
 }

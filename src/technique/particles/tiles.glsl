@@ -1,10 +1,11 @@
-// Declarations that the compute passes of `tiles` share. A frame processes the cells from front to back in rounds. In
-// each round
+// Declarations that the compute passes of the technique `tiles` share. A frame processes the cells (groups of
+// neighbouring particles, cells.glsl) from front to back in rounds. An entry is a pair of a tile and a large sphere
+// that reaches this tile. In each round
 //   tiles_cells    decides which cells of the round are drawn,
 //   tiles_bin      finds the pixels of every particle in these cells. It draws small spheres at once, with one
-//                  invocation per sphere, by an atomic maximum on each pixel's depth. It counts large spheres for each
-//                  tile that they reach,
-//   tiles_place    lists the tiles that this round draws into, and assigns positions to their entries,
+//                  invocation per sphere, by an atomic maximum on each pixel's depth. It counts the entries of each
+//                  tile,
+//   tiles_place    lists the tiles that this round draws into, and reserves space for their entries,
 //   tiles_fill     writes the entries,
 //   tiles_resolve  draws the entries of the listed tiles, with a few invocations for each tile,
 //   tiles_settle   stores the farthest depth of each tile, which later rounds use to skip hidden spheres.

@@ -1,5 +1,5 @@
-// Each work group processes the particles of one cell. It draws small spheres and counts the entries of large
-// spheres.
+// Each work group processes the particles of one cell. It draws small spheres and counts the entries of large spheres,
+// that is, the (tile, sphere) pairs.
 layout(local_size_x = 64) in;
 TRI_BINDING(17) uniform samplerBuffer sphere_texels;
 layout(std430) TRI_BINDING(12) readonly buffer CellEnds { uint cell_ends[]; };

@@ -1,9 +1,9 @@
 // Adds each large sphere of the round to the tiles for which tiles_bin counted it.
 layout(local_size_x = 64) in;
 
-// Returns an entry. Its lower bits contain the particle's index, and there are enough of them for all particles
-// that fit into a storage buffer. Above these bits, there is one bit for each quarter of the tile, which is 1 if
-// the sphere may reach that quarter.
+// Returns an entry, which represents a sphere in the list of a tile. The lower TRI_PARTICLE_BITS bits contain the
+// particle's index. Above these bits, there is one bit for each quarter of the tile, which is 1 if the sphere may reach
+// that quarter.
 uint entry(uint particle, ivec4 rectangle, ivec2 tile) {
   ivec2 low = rectangle.xy - TRI_TILE * tile;
   ivec2 high = low + rectangle.zw - 1;

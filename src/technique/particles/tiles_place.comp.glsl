@@ -1,5 +1,5 @@
-// One invocation per tile decides whether this round draws into the tile, and assigns positions to its entries. The
-// order of the tiles is arbitrary.
+// One invocation per tile decides whether this round draws into the tile. If so, it adds the tile to the list, whose
+// order is arbitrary, and reserves space for the tile's entries (the large spheres that reach it).
 layout(local_size_x = 64) in;
 
 void list_tile(uint index) {

@@ -3,11 +3,11 @@
 // image plane z = 1, so its direction is (sx, sy, 1).
 
 // ---- From world to camera space -------------------------------------------------------------------
-// The camera coordinate of a centre is axis·(P − eye). If it were computed with plain float arithmetic, it would have
-// the rounding error of the *largest* product, which exceeds a pixel if the field of view is narrow. Here, the
-// rounding errors of all products and sums are also computed, and added at the end (Dekker 1971; Ogita, Rump, Oishi
-// 2005: Dot2). The result is as accurate as if it had been computed in twice the precision and then rounded. Each
-// coordinate of the axis and the eye consists of two floats: the nearest float and the remainder.
+// The camera coordinate of a centre P along an axis of the camera is axis·(P − eye). If it were computed with plain
+// float arithmetic, it would have the rounding error of the *largest* product, which exceeds a pixel if the field of
+// view is narrow. Here, the rounding errors of all products and sums are also computed, and added at the end (Dekker
+// 1971; Ogita, Rump, Oishi 2005: Dot2). The result is as accurate as if it had been computed in twice the precision and
+// then rounded. Each coordinate of the axis and the eye consists of two floats: the nearest float and the remainder.
 
 // Returns the rounding error of sum = a + b.
 TRI_FN float tri_sum_error(float a, float b, float sum) {
@@ -142,6 +142,8 @@ TRI_FN TRI_FLOAT2 tri_sphere_interval(float a, float z, float r) {
 TRI_FN int tri_eye_plane(float z, float r) { return z + r <= 0.0f ? 0 - 1 : (z - r > 0.001f * r ? 0 : 1); }
 
 // ---- Sprites --------------------------------------------------------------------------------------
+// d is the distance |c| of the sphere's centre from the eye, and r is the sphere's radius.
+//
 // A ray-aligned sprite is perpendicular to v = c/|c|. Its distance from the eye is tri_sprite_plane, so it lies just
 // in front of the sphere. Every visible point of the sphere is therefore behind the sprite, as required for
 // conservative depth. In the plane of the sprite, the silhouette is a circle with the radius
@@ -153,7 +155,7 @@ TRI_FN int tri_surrounds(float d2, float r) { return d2 > r * r * 1.001f ? 0 : 1
 
 TRI_FN float tri_sprite_plane(float d, float r) { return (d - r) * 0.9990234375f; }
 
-// Returns plane·tan α with sin α = r/d.
+// Returns plane·tan α, where `plane` is the distance of the sprite from the eye, and sin α = r/d.
 TRI_FN float tri_silhouette_on_plane(float d, float r, float plane) {
   return plane * r / TRI_SQRT((d - r) * (d + r));
 }
