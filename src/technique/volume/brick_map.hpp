@@ -9,9 +9,9 @@
 
 namespace triptych::technique {
 
-// Creates the map. For Skip::bricks it contains 1 or 0 for each brick or, if `adapt` is not 0, the
-// result of brick_kinds. For Skip::distance it contains the result of brick_reach. For Skip::none
-// it is one word that is never read.
+// Creates the map. For Skip::bricks it contains 1 for each visible brick and 0 for each invisible
+// one or, if `adapt` is not 0, the result of brick_kinds. For Skip::distance it contains the result
+// of brick_reach. For Skip::none it is one word that is never read.
 [[nodiscard]] std::vector<std::int32_t> brick_map(const scene::VolumeScene& scene, Skip skip,
                                                   double adapt = 0);
 // Creates the same map from ranges that have already been computed for brick_layout(scene, skip,

@@ -31,11 +31,11 @@ inline constexpr std::int64_t most_cell_passes = 32'768;
 // take several of them (TRI_LONG_RAYS in raycast.glsl). The reason is that llvmpipe and lavapipe in
 // Mesa 22.3 limit each invocation to 65,535 iterations across all its loops, and then end the loops
 // without an error. A sample needs one iteration and, with shading, one more for each squaring of
-// the highlight. A step that may be too deep for one look-up needs another iteration to find its
-// chunk. Half of the allowed iterations are reserved for the loops over bricks. The code for long
-// rays is used only if necessary, because it contains sixteen copies of a sample's code and
-// compiles slowly. With quadrature=cells, only the loop of the highlight is unrolled
-// (raycast_reason).
+// the highlight. With quadrature=preintegrated, a step whose optical depth may be too large for one
+// look-up is processed in chunks, and needs another iteration to find the end of a chunk. Half of
+// the allowed iterations are reserved for the loops over bricks. The code for long rays is used
+// only if necessary, because it contains sixteen copies of a sample's code and compiles slowly.
+// With quadrature=cells, only the loop of the highlight is unrolled (raycast_reason).
 [[nodiscard]] inline bool has_long_rays(const scene::VolumeScene& scene) {
   const int squarings = std::countr_zero(static_cast<unsigned>(scene.shading.exponent));
   if (scene.quadrature == scene::Quadrature::cells) {

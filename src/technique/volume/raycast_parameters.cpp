@@ -50,8 +50,9 @@ BasicRaycastParameters<Real> parameters_of(const scene::VolumeScene& scene,
   const BrickLayout layout = brick_layout(scene, options.skip);
   const auto bricks = brick_counts(grid.size, layout);
   const double plane = ray_plane(scene);
-  // Any step longer than a cell cuts no cell, so it is replaced by a step of one voxel. The images
-  // for all such steps are therefore bit-identical.
+  // With quadrature=cells, the step affects the image only through the number of parts into which a
+  // cell is divided. A step longer than one voxel divides no cell, so it is replaced by a step of
+  // one voxel. The images for all such steps are therefore bit-identical.
   const bool cells = scene.quadrature == scene::Quadrature::cells;
   const double step_voxels = cells ? std::min(scene.step_voxels, 1.0) : scene.step_voxels;
   const scene::Shading& light = scene.shading;

@@ -31,8 +31,8 @@ enum class Precision : std::uint8_t { fp32, fp64 };
 [[nodiscard]] Skip skip(std::string_view name);            // throws InputError
 [[nodiscard]] Precision precision(std::string_view name);  // throws InputError
 
-// Faults that can be injected to prove that the gate finds them. They are compile-time constants of
-// kernels, so a kernel without a fault contains no code for them.
+// Faults that can be injected to prove that the gate (Triptych's regression check) finds them. They
+// are compile-time constants of kernels, so a kernel without a fault contains no code for them.
 enum class Fault : std::uint8_t {
   none = 0,
   half_voxel_shift = 1,     // the volume is read half a voxel too far along x
@@ -42,7 +42,8 @@ enum class Fault : std::uint8_t {
   coarse_filter = 5         // interpolation weights are rounded to 8 bits
 };
 
-// Options that, except for injected faults, change the image by no more than its bound.
+// Options for how a volume is drawn. Except for injected faults, they change the image by no more
+// than its bound, which is the largest permitted difference from the reference image.
 struct RaycastOptions {
   Sampler sampler = Sampler::manual;
   Skip skip = Skip::distance;
@@ -73,7 +74,7 @@ struct BasicRaycastParameters {
   Four eye;              // xyz: eye/spacing; w: h, the step in world units
   Four ray_centre;       // xyz: forward, world; w: h / smallest spacing, the step in voxels
   Four ray_right;        // xyz: right · aspect · tan(fov/2); w: RaycastOptions::ert
-  Four ray_up;           // xyz: up · tan(fov/2); w: gradient floor
+  Four ray_up;           // xyz: up · tan(fov/2); w: Shading::gradient_floor
   Four inverse_spacing;  // xyz: 1/spacing; w: smallest spacing
   // The normalised value is stored·x + y. z is ray_plane. w is needed only with doubles: the factor
   // that converts a texel to the stored integer, or 0 if the texel already is that integer.

@@ -7,7 +7,8 @@ const int fault_extra_sample = 3;
 const int fault_uncorrected_opacity = 4;
 const int fault_coarse_filter = 5;
 
-// These variables are used only if TRI_COUNT is 1; the compiler removes them from the timed build.
+// The counters of the ray. They are used only if TRI_COUNT is 1. Timed frames use a build in which TRI_COUNT is 0, and
+// from which the compiler removes these variables.
 uint count_samples = 0u;
 uint count_nonzero = 0u;
 uint count_bricks_visited = 0u;

@@ -1,5 +1,5 @@
 // The state of a ray between two passes over the parts of a volume, of which the device stores one at a time
-// (technique::Part).
+// (technique::Part). A run consists of consecutive samples in visible bricks.
 
 struct Pause {
   real4 light;   // premultiplied colour, transmittance
