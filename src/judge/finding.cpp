@@ -197,7 +197,8 @@ std::string kind_of(const Observation& what) {
   }
   const bool alone = what.changes.size() == 1;
   for (const Change& each : what.changes) {
-    // Left out, because an increase in misses is often only a consequence of the other changes.
+    // Cache misses are left out unless they are the only change, because they often increase only
+    // as a consequence of the other changes.
     if (each.unit == Unit::misses && !alone) continue;
     kind += " " + each.name;
   }

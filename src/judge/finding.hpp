@@ -113,7 +113,8 @@ enum class Cause : std::uint8_t {
   no_line,              // no line fits the costs of this device and <other> [<refusal>]
   no_partner,           // no other accepted device was counted by the same emulator [<counted_by>]
 
-  // Causes that concern accuracy.
+  // Causes that concern accuracy. A limit image is the image with exact ray integrals, to which the
+  // images of a scene converge as the step size decreases.
   error,              // the error against the limit image ["rmse" "bound"]
   unknown_error,      // the error cannot be measured [detail]
   not_comparable,     // the sizes differ, or a value is not finite

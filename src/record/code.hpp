@@ -14,8 +14,9 @@ struct Executable {
   // the statistics that Triptych counts in the disassembly ("Instructions" and those that begin
   // with "Loop"). A statistic that a driver does not report is absent, never zero.
   std::map<std::string, double> statistics;
-  // The content hash of the disassembly (of LLVM's disassembly: without waits), which is also its
-  // key for Store::listing(). Empty if there is no disassembly.
+  // The content hash of the disassembly, which is also its key for Store::listing(). If the
+  // compiler is LLVM, the hash leaves out wait instructions, because their number varies from run
+  // to run. Empty if there is no disassembly.
   std::string assembly = {};
   bool operator==(const Executable&) const = default;
 };

@@ -5,8 +5,9 @@
 
 namespace triptych::record {
 
-// The factors that determine a record's data_hash. The hash depends on their resolved levels:
-// "auto" is replaced by the level that the device chooses.
+// The factors that determine Record::data_hash, the content hash of the data that a device draws.
+// The hash depends on the levels that are actually used: "auto" is replaced by the level that the
+// device chooses.
 inline constexpr std::array<std::string_view, 5> data_factors{"data", "voxel", "colour", "window",
                                                               "mapping"};
 

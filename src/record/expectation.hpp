@@ -26,7 +26,8 @@ struct SamePicture {
   std::array<int, 2> at{0, 0};
   // If false, the images need only be equal within the sum of their bounds.
   bool to_the_bit = true;
-  // If false, ids are not compared, because the two images number the particles differently.
+  // If false, the ids of the particles that the pixels show are not compared, because the two
+  // images number the particles differently.
   bool same_ids = true;
   float depth_scale = 1;  // depth in the other image divided by depth in this image; a power of two
 };

@@ -26,7 +26,8 @@ enum class Outcome : std::uint8_t {
 [[nodiscard]] std::string_view name_of(Outcome outcome);
 [[nodiscard]] Outcome outcome(std::string_view name);  // throws InputError
 
-// Words in quotes are keys of Reason::numbers; words in backticks are other members of Reason.
+// In the comments on the enumerators, words in quotes are keys of Reason::numbers, and words in
+// backticks are other members of Reason.
 enum class Cause : std::uint8_t {
   none,              // the configuration was measured
   same_frames,       // the frames were copied from an equivalent configuration

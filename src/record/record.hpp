@@ -34,8 +34,9 @@ struct Device {
   // The environment variables that affect code generation and that were set.
   std::map<std::string, std::string> environment;
   std::map<std::string, std::string> limits;  // the keys are the API's own names
-  // One entry for each statistic; empty if no calibration scene was drawn. The calibration depends
-  // only on the driver, so it is not part of any key.
+  // States for each pipeline statistic how exactly the driver counts it. Empty if no calibration
+  // scene was drawn. It depends only on the driver, so key() and statistics_key() do not contain
+  // it.
   std::map<std::string, StatisticWorth> statistics_calibration = {};
   std::vector<DeviceFault> faults = {};  // not part of any key
   // The GPU family of a compile-only device, such as "navi31": its driver generates code for

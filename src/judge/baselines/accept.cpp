@@ -33,8 +33,9 @@ void update_image(const record::Record& record, const core::Image& reference, Ne
   next.files[name] = std::move(bytes);
 }
 
-// Images are large, so they are stored only for plans that check both images and times. Reports
-// show stored images only for such plans.
+// Updates the hashes of the reference images in images.json. Images are large, so the images
+// themselves are stored only for plans that check both images and times, because reports show
+// stored images only for such plans.
 void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
   const bool keeps =
       accepted.checks.contains(Check::image) && accepted.checks.contains(Check::timing);
@@ -47,8 +48,9 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
       if (keeps) update_image(record, reference, next);
-      // The content hash of the data depends on the voxel format. The hashes for the voxel formats
-      // of other devices stay valid as long as the reference image does not change.
+      // The entry contains one hash of the data for each voxel format, and devices may use
+      // different formats. The hashes for other formats are therefore discarded only if the
+      // reference image has changed.
       Json& entry = table[record.scene];
       const Json hash = reference_hash(reference);
       if (!entry.is_object() || entry.value("reference", Json()) != hash) {

@@ -94,7 +94,8 @@ void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& 
   }
 }
 
-// Writes the error of each record's image against the limit image of its scene.
+// Writes the error of each record's image against the limit image of its scene (the image with
+// exact ray integrals).
 void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);

@@ -69,7 +69,8 @@ struct StoredTiming {
   std::string kernel_hash;
 };
 
-// The error of the image that a device draws for a configuration, against the scene's limit image.
+// The error of the image that a device draws for a configuration, against the scene's limit image
+// (the image with exact ray integrals).
 struct StoredError {
   double rmse = 0;
   double arithmetic = 0;  // the error against the reference image at the same sample positions

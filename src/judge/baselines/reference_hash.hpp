@@ -15,7 +15,7 @@ namespace triptych::judge {
 // of 512² pixels; the probability that this happens on both grids is the square of that. q is
 // smaller than the error bound of any pixel, so a change that a check could detect changes both
 // hashes. Depths and ids are not hashed, because at an edge they depend on the last bit, and
-// because the surface that they describe also has a colour.
+// because the hashed colours already depend on which surface is visible.
 using ReferenceHash = std::array<std::string, 2>;
 [[nodiscard]] ReferenceHash reference_hash(const core::Image& image);
 // Returns whether the hashes for at least one of the grids are equal.

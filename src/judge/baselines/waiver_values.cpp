@@ -29,8 +29,9 @@ bool is_iso_date(std::string_view text) {
   return written_so && date_of(text).ok();
 }
 
-// Returns whether the glob matches all samples. The samples have nothing in common except the form
-// of such names, so a glob that matches all samples matches every name.
+// Returns whether the glob matches all samples. The samples are names of the same kind (such as
+// device ids) that have nothing in common except the form of these names. A glob that matches all
+// of them therefore matches every name of this kind.
 template <std::size_t N>
 bool matches_all(std::string_view glob, const std::array<const char*, N>& samples) {
   return std::ranges::all_of(

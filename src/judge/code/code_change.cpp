@@ -33,8 +33,8 @@ constexpr CodeStatistic branches{"branches", "Branches", false, true, 14};
 constexpr CodeStatistic copies{"copies", "Copies", false, true, 15};
 }  // namespace quantity
 
-// The names used by RADV, radeonsi, NVK, NVIDIA's driver, ANV, iris and OpenCL, and the names of
-// the statistics that Triptych itself counts in a disassembly.
+// The names under which RADV, radeonsi, NVK, NVIDIA's driver, ANV, iris and OpenCL report
+// statistics, and the names of the statistics that Triptych itself counts in a disassembly.
 constexpr std::array<NamedStatistic, 44> named_statistics{{
     {"subgroups per simd", quantity::occupancy},
     {"max waves", quantity::occupancy},
@@ -114,8 +114,10 @@ void compare_executable(const std::string& name, const record::Executable& befor
                                   .before = old->second,
                                   .now = value});
   }
-  // If the same instructions take another number of bytes, only encodings or waits have changed.
-  // LLVM's waits differ from run to run (measure/code/compiled_code.cpp).
+  // If only the code size differs, and both sides report the number of instructions, the
+  // instructions are the same, and only their encodings or the waits between them differ. Such a
+  // change is dropped, because the waits that LLVM inserts differ from run to run
+  // (measure/code/compiled_code.cpp).
   const bool same_instructions =
       counted &&
       std::ranges::all_of(

@@ -1,5 +1,5 @@
-// Measures the error of each image against its limit image, and compares it with the accepted
-// error.
+// Measures the error of each image against its limit image (the image with exact ray integrals),
+// and compares it with the accepted error.
 
 #include <algorithm>
 #include <map>
@@ -59,8 +59,8 @@ Finding judge_error(const RunView& view, const record::Record& record,
   return finding;
 }
 
-// Fits the order of convergence to the accepted errors of a family of configurations. The order is
-// fitted again each time, because only the errors are stored.
+// Fits the order of convergence to the accepted errors of a family (configurations that differ only
+// in the step size). The order is fitted again each time, because only the errors are stored.
 std::optional<accuracy::Order> stored_order(const RunView& view,
                                             const accuracy::AccuracyScene& scene,
                                             const accuracy::AccuracyFamily& family) {
@@ -77,8 +77,8 @@ std::optional<accuracy::Order> stored_order(const RunView& view,
 }
 
 // Reports a regression if the order of convergence is below the accepted order by more than the sum
-// of both half widths. If an order can no longer be fitted to the same steps, errors that do not
-// depend on the step size have grown.
+// of both half widths. If no order can be fitted any longer, although the step sizes are the same,
+// errors that do not depend on the step size have grown. This is reported as `cannot_judge`.
 Finding judge_order(const RunView& view, const record::Device& device,
                     const std::optional<accuracy::Order>& now, const accuracy::Order& stored) {
   Observation what{.cause = now ? Cause::order : Cause::no_order, .against = Against::baseline};
@@ -161,7 +161,8 @@ class AccuracyCheck {
   void measure_error(const record::Record& record) {
     const accuracy::LimitPicture* limit = view_.request.limit(record);
     if (limit == nullptr) {
-      // A scene without an accepted error never had a limit, so it needs no finding.
+      // If no error was accepted for the configuration, its scene had no limit image before either,
+      // so it needs no finding.
       if (view_.baselines.errors(record.configuration).empty()) return;
       add(record, Verdict::cannot_judge, {.cause = Cause::no_limit_any_more}, view_.accept());
       return;

@@ -13,7 +13,7 @@ namespace triptych::judge {
 namespace {
 
 // The accepted values of a counter on all devices: the smallest value, the largest value, and one
-// value for each family of devices.
+// value for each family of devices (drivers that share their implementation).
 struct Range {
   std::uint64_t least = UINT64_MAX;
   std::uint64_t most = 0;

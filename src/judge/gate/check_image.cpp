@@ -162,7 +162,9 @@ class SceneJudge {
   std::optional<ReferenceHash> reference_;  // the hash of that image, if only the hash is stored
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
-  core::Image bound_;  // error bound of a particle scene; its ids are 0 where the id is certain
+  // The error bound of a particle scene. An id of 0 in it means that rounding cannot change which
+  // particle the pixel shows.
+  core::Image bound_;
 };
 
 }  // namespace

@@ -27,7 +27,8 @@ struct GateResult {
   std::string plan;
   std::string run;
   std::vector<Finding> findings;  // the worst first, then by device and configuration
-  // The errors against the limit images, one entry for each scene on each device.
+  // The errors against the limit images (the images with exact ray integrals), one entry for each
+  // scene on each device.
   std::vector<accuracy::AccuracyScene> accuracies = {};
   std::vector<CorrelationPair> correlations = {};  // the pairs of devices that the report plots
   std::set<std::string> devices = {};  // requested devices with at least one measurement
@@ -39,10 +40,10 @@ struct GateResult {
   std::string baselines = {};                        // baselines folder, if commands must name it
   bool times_decided = false;                        // copied from the request
   bool part = false;                                 // copied from the request
-  // Notes about the run, which the last screen shows for every verdict: loaders and drivers that
-  // failed during device enumeration; the injected faults, each with its number of records; the
-  // program that measured, if it is not the program that judges; and the day on which the run
-  // started, if that was more than a day ago, because a newer run may have failed to start.
+  // Notes about the run, which the final terminal output shows for every verdict: loaders and
+  // drivers that failed during device enumeration; the injected faults, each with its number of
+  // records; the program that measured, if it is not the program that judges; and the day on which
+  // the run started, if that was more than a day ago, because a newer run may have failed to start.
   std::vector<record::Unusable> unusable = {};
   std::map<std::string, std::size_t> injected = {};
   std::string measured_by = {};

@@ -30,12 +30,13 @@ bool is_open(const std::string& counter, const record::Record& record) {
 }  // namespace
 
 // Derivation of the number of fragments by which two correct drivers may differ:
-//   - A driver snaps each vertex to its grid of 2⁻ᵇ pixel by rounding or truncation, so the vertex
-//     moves by less than one grid step. The positions of a sprite's edge in the images of two
-//     drivers therefore differ by up to 2⁻ᵇ + 2⁻⁸ pixel, plus the amount by which the sprite is
-//     enlarged on a coarse grid (technique/particles/margins.hpp). A point is enlarged by half its
-//     margin on each side, and by up to the same amount again if the device rounds its size up. The
-//     sum of all these amounts is δ.
+//   - A driver snaps each vertex to its grid of 2⁻ᵇ pixel (b is its number of sub-pixel bits) by
+//     rounding or truncation, so the vertex moves by less than one grid step. The other driver is
+//     assumed to have a grid of 2⁻⁸ pixel. The positions of a sprite's edge in the two images
+//     therefore differ by up to 2⁻ᵇ + 2⁻⁸ pixel, plus the amount by which the sprite is enlarged on
+//     a coarse grid (technique/particles/margins.hpp). A point is enlarged by half its margin on
+//     each side, and by up to the same amount again if the device rounds its size up. The sum of
+//     all these amounts is δ.
 //   - An edge of length L that moves by δ crosses δ·L pixel centres on average. The edges of S
 //     sprites with F fragments have a total length of at most 4·√(S·F) (for squares, by the
 //     Cauchy-Schwarz inequality; a polygon around the same disc has a shorter outline), and the

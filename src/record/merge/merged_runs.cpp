@@ -38,7 +38,7 @@ std::string all_of(const std::string& a, const std::string& b) {
   return fmt::format("{}", fmt::join(parts, separator));
 }
 
-// The first object of its kind, and the file in which it was found.
+// A run or device, and the file in which it was found first.
 template <typename T>
 struct Found {
   T value;
