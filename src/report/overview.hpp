@@ -41,7 +41,7 @@ struct Overview {
 };
 
 // Summarizes the results. The overview contains pointers into them. If there are no results, its
-// code is cannot_judge.
+// exit code is cannot_judge.
 [[nodiscard]] Overview overview(std::span<const judge::GateResult* const> results);
 [[nodiscard]] Overview overview(std::span<const judge::GateResult> results);
 

@@ -61,8 +61,8 @@ Session::~Session() {
   for (Column& each : columns_) retire(each);
   const bool drawing =
       std::ranges::any_of(retired_, [](const auto& each) { return each->state().drawing; });
-  // All threads that wait for a worker react to this signal (measure::InterruptGuard). No other
-  // code handles the signal at this point.
+  // Ends the threads that wait for a worker: each of them reacts to this signal
+  // (measure::InterruptGuard). No other code handles the signal at this point.
   if (drawing) ::kill(::getpid(), SIGTERM);
 }
 

@@ -52,7 +52,9 @@ struct Work {
   std::variant<VolumeWork, ParticleWork> scene;
 };
 
-// Each frame has only one purpose, so that counting never affects times.
+// What a frame is drawn for. Each frame has only one purpose, so that counting never affects times.
+// The device code has two builds: the timed build, which counts nothing, and the counting build,
+// which also writes Triptych's counters.
 enum class Purpose : std::uint8_t {
   timing,      // nothing is counted
   statistics,  // pipeline statistics are queried; the frame's time is never used

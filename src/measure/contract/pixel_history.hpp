@@ -19,14 +19,15 @@ struct PixelPlace {
   int y = 0;
 };
 
-// The reason that the exception of TracesPixel::trace() states if a work cannot be traced.
+// The message of the exception that TracesPixel::trace() throws for a work whose samples cannot be
+// recorded.
 inline constexpr const char* not_traced =
     "the history of a pixel cannot be recorded with quadrature=cells; use quadrature=midpoint or "
     "quadrature=preintegrated";
 
 // A prepared work that can also draw a frame with a build of its device code that records the
-// samples of one pixel. This build is the counting build with additional code for recording, so it
-// also writes Triptych's counters.
+// samples of one pixel. This build is the counting build (the build that writes Triptych's
+// counters) with additional code for recording.
 class TracesPixel {
  public:
   TracesPixel() = default;

@@ -297,7 +297,7 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                            .subject = std::string(technique::name_of(kind)),
                            .detail = error.what()});
       }
-      // No device fault is added for other errors: if the cause is a problem of the device, the
+      // Any other error adds no device fault: if the device caused the error, drawing the
       // configurations will reveal it.
       for (const auto& [name, value] : scene.expected) {
         unknown.emplace(name, record::StatisticWorth{
@@ -317,8 +317,8 @@ Calibration calibrate_statistics(Device& device, technique::Work kind,
                        .detail = fmt::format("all {} statistics were 0", readings.size())});
   }
   for (const auto& [name, each] : readings) calibration[name] = calibration_verdict(each);
-  // If a scene failed, the remaining scenes are not sufficient to judge the statistics of that
-  // scene.
+  // The statistics of a scene that could not be drawn are unknown, even if other scenes contain the
+  // same statistics, because these scenes alone are not sufficient for a verdict.
   for (const auto& [name, reason] : unknown) calibration[name] = reason;
   return calibration;
 }

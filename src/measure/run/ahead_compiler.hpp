@@ -1,9 +1,10 @@
 #pragma once
-// Compiles the device code of counted configurations before they are counted. Under the emulator,
-// PoCL's compiler takes 30 times as long as in an ordinary process. A worker without the emulator
-// therefore draws each configuration first. The driver stores the compiled code in the cache folder
-// of the counted worker, which then only loads it. Both would compile the same code, bit by bit,
-// because the environment makes the driver compile for the CPU that the emulator simulates.
+// Compiles the device code of configurations before their instructions are counted under an
+// emulator. Under the emulator, PoCL's compiler takes 30 times as long as in an ordinary process. A
+// worker that runs without the emulator therefore draws each configuration first. The driver stores
+// the compiled code in the cache folder of the worker under the emulator, which then only loads the
+// code. Both workers would compile the same code, bit by bit, because the environment makes the
+// driver compile for the CPU that the emulator simulates.
 
 #include <chrono>
 #include <string>
@@ -19,8 +20,8 @@ class AheadCompiler {
   AheadCompiler(WorkerSetup setup, std::string suite, InterruptGuard& interrupts)
       : limit_(setup.limit), suite_(std::move(suite)), slot_(std::move(setup), interrupts) {}
 
-  // Draws the configuration of a job. If that fails, the counted worker compiles the code itself,
-  // and its record states what is wrong. Throws Interrupted.
+  // Draws the configuration of a job. If that fails, the worker under the emulator compiles the
+  // code itself, and its record states what is wrong. Throws Interrupted.
   void compile(Job job);
 
   void finish() { slot_.finish(); }

@@ -80,8 +80,8 @@ Done DeviceRun::perform(const Configuration& configuration, const std::string& k
   return done;
 }
 
-// Records a failure under the emulator as a skip, because the emulator may have caused it. Other
-// plans draw the same configuration without the emulator.
+// Changes a failure under the emulator (which counts instructions) to a skip, because the emulator
+// may have caused the failure. Other plans draw the same configuration without the emulator.
 void DeviceRun::only_counted(record::Record& record) const {
   if (record.outcome == record::Outcome::measured) {
     record.counted_by = std::get<Emulator>(find_emulator()).name;

@@ -61,7 +61,7 @@ bool device_clock_holds(std::span<const Block> blocks) {
   return true;
 }
 
-// A side, with its current worker.
+// One side of the comparison (a device, driver or build), with its current worker process.
 class Interleaved::Slot {
  public:
   Slot(Side side, const SideOptions& of, const InterleavedOptions& options,

@@ -12,8 +12,9 @@ namespace {
 using accuracy::Particles;
 using accuracy::SurfaceDifference;
 
-// Limits on the number of draws. They are needed because a device takes several milliseconds to
-// prepare and draw even a few spheres.
+// The maximum number of spheres in a history, and the maximum number of draws in the search for the
+// smallest set of spheres with which the pixel is wrong. The numbers are limited, because a device
+// takes several milliseconds to prepare and draw even a few spheres.
 constexpr std::size_t most_rows = 64;
 constexpr int most_draws = 128;
 

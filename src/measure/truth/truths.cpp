@@ -103,8 +103,8 @@ const accuracy::LimitPicture* Truths::limit_of(const record::Record& record) {
 accuracy::LimitPicture Truths::find_or_render_limit(const record::Record& record,
                                                     const std::string& key) {
   SuiteWithTruth& suite = suite_(record.suite);
-  // A limit is stored like a reference image, with a special scene name and with its uncertainty as
-  // the bound.
+  // A limit (the image to which a scene converges as its sampling is refined) is stored like a
+  // reference image, with a special scene name and with its uncertainty as the bound.
   accuracy::TruthPair pair = kept("limit of " + record.suite, key, [&]() -> accuracy::TruthPair {
     Limit limit = suite.limit(record.factors);
     return {std::move(limit.image), std::move(limit.uncertainty)};

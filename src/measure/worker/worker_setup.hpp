@@ -45,8 +45,9 @@ inline constexpr std::chrono::seconds compiled_limit{300};
 [[nodiscard]] WorkerSetup worker_setup(const SideOptions& side, bool counted,
                                        const CacheFolder& cache, std::chrono::milliseconds limit);
 
-// Returns the setup of a worker that runs without the emulator and fills the cache folder of a
-// counted worker with compiled code. Returns nullopt if this is impossible for the device.
+// Returns the setup of a worker that runs without the emulator, and fills the cache folder of the
+// worker under the emulator with compiled code. Returns nullopt if this is impossible for the
+// device.
 [[nodiscard]] std::optional<WorkerSetup> ahead_setup(const SideOptions& side,
                                                      const CacheFolder& cache,
                                                      std::chrono::milliseconds limit);

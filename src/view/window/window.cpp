@@ -36,7 +36,8 @@ void keep_reason(int /*code*/, const char* text) {
                   what, reason.empty() ? "" : ": ", reason));
 }
 
-// Threads may call wake() even after the window has been closed.
+// Whether the window is open. If it is not, wake() does nothing, because threads may call wake()
+// even after the window has been closed.
 std::atomic<bool> is_open = false;
 
 // The default font of most Debian desktops. Without it, ImGui's built-in font is used, which has
@@ -62,7 +63,8 @@ void set_style(float scale) {
   style.ScaleAllSizes(scale);
 }
 
-// ImTextureID is a pointer in some versions of ImGui and an integer in others.
+// Converts the name of an OpenGL texture to ImGui's type for textures, which is a pointer in some
+// versions of ImGui and an integer in others.
 template <typename Id = ImTextureID>
 Id texture_id(unsigned int name) {
   if constexpr (std::is_pointer_v<Id>) {
