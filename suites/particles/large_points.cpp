@@ -12,8 +12,10 @@
 namespace triptych::particles_suite {
 namespace {
 
-// Returns the length of a sphere's silhouette along one axis of the image plane, clipped to
-// [−reach, reach], or 0 if no part of the sphere is in front of the eye. Uses the same formulas as
+// Returns the length of a sphere's silhouette along one axis of the image plane at distance 1, or 0
+// if no part of the sphere is in front of the eye. The sphere has the radius `r`, and its centre
+// lies at `a` along this axis and at `z` along the view axis. The silhouette is extended by
+// `margin` at both ends, and clipped to [−reach, reach]. Uses the same formulas as
 // tri_sphere_interval (technique/portable/sphere_math.h).
 double length_on_image(double a, double z, double r, double margin, double reach) {
   const double side = std::abs(a);  // the silhouette is symmetric about the axis

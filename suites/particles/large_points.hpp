@@ -18,9 +18,10 @@ namespace triptych::particles_suite {
 //     silhouette, so it covers more pixels than a quad. It is also larger by a margin, which is up
 //     to a pixel in some drivers. A rectangle that is w pixels wide contains between ⌊w⌋ and ⌈w⌉
 //     pixel centres along an axis.
-//   - all other counters of cells, particles and sprites, if `occlusion` is true: quads are drawn
-//     first and completely, so more cells and particles can be culled behind them, up to all of
-//     them. Only the number of visible particles may not differ.
+//   - all other counters of cells (groups of particles that are culled together), particles and
+//     sprites, if `occlusion` is true: quads are drawn first and completely, so more cells and
+//     particles can be culled behind them, up to all of them. Only the number of visible particles
+//     may not differ.
 [[nodiscard]] std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene,
                                                           double largest, bool occlusion);
 

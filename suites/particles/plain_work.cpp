@@ -28,9 +28,10 @@ struct Axis {
   double per_unit;
   int pixels;
 
-  // Returns the range of pixels that a ball of radius r around (a, z) can cover. For every point p
-  // of the ball, p_a/p_z differs from a/z by at most r·(1 + |a|/z)/(z − r). Two pixels are added on
-  // each side, which is more than the margin of any sprite.
+  // Returns the range of pixels that a ball of radius r can cover along this axis. Its centre lies
+  // at `a` along this axis and at `z` along the view axis, so it appears at a/z on the image plane.
+  // Every other point of the ball appears at a distance of at most r·(1 + |a|/z)/(z − r) from
+  // there. Two pixels are added on each side, which is more than the margin of any sprite.
   [[nodiscard]] std::pair<int, int> pixels_of(double a, double z, double r) const {
     constexpr double margin = 2;
     const double middle = (a / z - first) * per_unit;
@@ -70,9 +71,9 @@ class Claims {
 }  // namespace
 
 bool sprites_are_apart(const scene::ParticleScene& scene) {
-  // The reach of a sprite, in radii of the sphere. A polygon around a silhouette has at least
-  // four corners, which are at most √2 times as far from its centre as the silhouette. The factor
-  // 1.05 is a margin.
+  // An upper bound on the distance of a sprite's corners from its centre, in radii of the sphere. A
+  // sprite is a polygon around the silhouette with at least four corners, so the corners are at
+  // most √2 times as far from the centre as the silhouette. The factor 1.05 is a margin.
   constexpr double reach = 1.05 * std::numbers::sqrt2;
   const double tangent = scene::tangent_of_half(scene.camera.fov_y_deg);
   const double aspect = static_cast<double>(scene.width) / scene.height;

@@ -143,7 +143,8 @@ StressScene stress_jump(std::string_view, scene::ColourKind colour) {
   return scene;
 }
 
-// Along its longer side, the image always shows the same extent of the scene.
+// Images of different shapes, such as "64x48". Along its longer side, each image shows the same
+// extent of the scene.
 StressScene stress_shape(std::string_view variant, scene::ColourKind colour) {
   const std::size_t times = variant.find('x');
   const int width = number_in<int>(variant.substr(0, times));

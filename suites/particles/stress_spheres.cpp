@@ -35,8 +35,8 @@ StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Both silhouettes are fully visible and do not overlap, so the image does not depend on depths,
-// which floats cannot resolve at this distance.
+// Two small spheres, seen from far away. Their silhouettes are fully visible and do not overlap, so
+// the image does not depend on their depths, which floats cannot resolve at this distance.
 StressScene stress_far(std::string_view variant, scene::ColourKind colour) {
   constexpr int larger_side = 160;
   const double distance = number_in<double>(variant);
@@ -67,7 +67,8 @@ StressScene stress_inside(std::string_view variant, scene::ColourKind colour) {
   return maker.take();
 }
 
-// Looks along the tangent, so that the horizon crosses the image.
+// The eye is just above the ground, a sphere of radius 1, and looks along its tangent, so that the
+// horizon (the silhouette of the ground) crosses the image.
 StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) {
   const double distance = number_in<double>(variant);
   const glm::dvec3 up = oblique();

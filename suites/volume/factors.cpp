@@ -19,8 +19,8 @@ using measure::Factor;
 using measure::number;
 using measure::text;
 
-// Marks a factor that was added after the first scenes had been stored. Its default level is
-// omitted from names.
+// Marks a factor that was added after the first scenes had been stored. The names of scenes omit
+// this factor if it has its default level, so that the names of stored scenes stay valid.
 Factor silent(Factor factor) {
   factor.silent_default = true;
   return factor;

@@ -19,7 +19,8 @@ double fov_of_rows(int height, int rows) {
 
 }  // namespace
 
-// Images with fewer pixels around the same centre are parts of the largest image.
+// Images that are one pixel wide or high must match the middle column, row or pixel of the image
+// with 17 x 13 pixels.
 StressScene stress_shape(std::string_view variant) {
   constexpr int columns = 17;
   constexpr int rows = 13;

@@ -52,7 +52,8 @@ StressScene stress_boundary(std::string_view variant) {
 }
 
 StressScene stress_parallel(std::string_view variant) {
-  // The middle column has directions with x = ±0 and begins in the plane x = 0 or x = 24.
+  // The rays of the middle column of pixels have directions with x = ±0, and lie in the plane x = 0
+  // or x = 24, which contains a face of the volume.
   if (variant == "lower") {
     return with_middle_ray(seen_from(along({0, 11, 40}, {0, 0, -1}, {0, 1, 0}, 45)));
   }
@@ -84,8 +85,9 @@ StressScene stress_chord(std::string_view variant) {
   return scene;
 }
 
-// Field and camera are mirrored along the axes marked `m`. An odd number of reflections mirrors the
-// image horizontally, because the camera's axes are right-handed; an even number does not.
+// The field and the camera are mirrored along the axes that are marked `m` in the variant's name.
+// An odd number of reflections mirrors the image horizontally, because the camera's axes are
+// right-handed; an even number does not.
 StressScene stress_octant(std::string_view variant) {
   const glm::dvec3 sign(variant[0] == 'm' ? -1 : 1, variant[1] == 'm' ? -1 : 1,
                         variant[2] == 'm' ? -1 : 1);

@@ -30,7 +30,8 @@ StressScene stress_spacing(std::string_view variant) {
   volume.spacing = {1, 1, extreme ? 1000.0 : 8.0};
   StressScene scene = seen_from_outside(std::move(volume));
   if (extreme) {
-    // The camera is in front of the long side, where each ray crosses a part of one layer.
+    // The camera is in front of the long side, where each ray crosses only a part of one layer of
+    // voxels, which is 1,000 units thick.
     scene.camera = looking({70, 35, 3010}, {10, 9, 3000}, 40);
   }
   return scene;

@@ -64,8 +64,9 @@ StressScene stress_solid(std::string_view /*variant*/) {
   return scene;
 }
 
-// Each voxel length transmits 2⁻²⁴ of the light. The three variants correct the opacity by square
-// roots, by squares, and by logarithm and exponential.
+// Each voxel length transmits 2⁻²⁴ of the light. The opacity is converted to the length of a step:
+// with square roots for 1/8 voxel (`root`), by squaring for 2 voxels (`square`), and with a
+// logarithm and an exponential for any other length.
 StressScene stress_nearly_solid(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.function = uniform(orange_of(0x1.fffffep-1));

@@ -286,7 +286,8 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
                                      .hash();
   std::string key = fmt::format("reference {} data {} model {}", reference::volume_version,
                                 pictured.grid->hash, model_hash);
-  // A stress case also has properties that are not factors.
+  // The properties of a stress case's frame (such as its own camera) are added to the key, because
+  // they are not levels of factors.
   if (stress_data(configuration.at("data"))) {
     key += " frame " + core::json_hash(describe_frame(pictured, model.ert, model.adapt));
   }
@@ -347,7 +348,8 @@ std::string VolumeSuite::limit_key(const Configuration& configuration) {
 }
 
 measure::Limit VolumeSuite::limit(const Configuration& configuration) {
-  // The tolerance does not exceed the rounding error of a float image with values up to 1.
+  // The largest error with which the limit is computed. It does not exceed the rounding error of a
+  // float image with values up to 1.
   constexpr double tolerance = 0x1.0p-24;
   const reference::Truth truth = reference::render_volume_converged(
       scene(configuration, load_as_it_is(configuration)), tolerance);

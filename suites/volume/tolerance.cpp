@@ -31,9 +31,9 @@ double farthest_entry(const scene::Box& box, const glm::dvec3& eye, const glm::d
   return farthest;
 }
 
-// Returns the largest position error in voxels per axis (derived in tolerance.hpp). Lengths are
-// divided by the smallest spacing, which yields an upper bound on the number of voxels along any
-// axis.
+// Returns the largest position error in voxels per axis (derived in tolerance.hpp). `u` is the unit
+// roundoff. Lengths are divided by the smallest spacing, which yields an upper bound on the number
+// of voxels along any axis.
 double position_error(const scene::VolumeScene& scene, double u) {
   const scene::VoxelGrid& grid = *scene.grid;
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
