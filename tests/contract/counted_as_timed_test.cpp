@@ -1,6 +1,6 @@
-// Checks that the counting build does the same work as the timed build. Compares the counters with
-// the number of samples that the timed build's image reveals, and the images of the two builds with
-// each other.
+// Device code is compiled twice: as the timed build, and as the counting build, which also counts
+// its work. Checks that both builds do the same work. Compares the counters with the number of
+// samples that the timed build's image reveals, and the images of the two builds with each other.
 
 #include <cmath>
 
@@ -195,8 +195,8 @@ TEST(CountedAsTimed, BothBuildsDrawTheSameVolumeImage) {
 }
 
 // If a shader violates its declaration of conservative depth, the image reveals which fragments
-// were rejected early. The counting build has to reject the same fragments. With everything(), the
-// images without the violation are compared as well.
+// were rejected early. The counting build has to reject the same fragments. In the nightly run
+// (everything()), the images without the violation are compared as well.
 TEST(CountedAsTimed, BothBuildsRejectTheSameFragmentsEarly) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();

@@ -11,10 +11,10 @@ struct Injected {
   ParticleWork work;
 };
 
-// A fault and a scene that reveals it. The fault `small_sprite` needs small spheres, of which
-// `tiles` tests only the pixels of a rectangle (it tests large spheres for whole quarters of
-// tiles), `unresolved_ties` needs coincident spheres, and `lost_at_border` needs spheres that
-// overlap several tiles.
+// Returns the faults, each with a scene that reveals it. The fault `small_sprite` needs small
+// spheres, of which `tiles` tests only the pixels of a rectangle (it tests large spheres for whole
+// quarters of tiles), `unresolved_ties` needs coincident spheres, and `lost_at_border` needs
+// spheres that overlap several tiles.
 std::vector<Injected> faults() {
   std::vector<Injected> all;
   all.push_back({"small_sprite", generated_work("uniform", 10000, "orbit_y:1/8", 200)});

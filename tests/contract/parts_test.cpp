@@ -33,7 +33,8 @@ measure::VolumeWork& volume_of(measure::Work& work) {
   return std::get<measure::VolumeWork>(work.scene);
 }
 
-// Returns the size in bytes of the largest voxel layout.
+// Returns the number of bytes of the whole volume in the layout that its sampler reads. If the
+// layout depends on the API, it is the largest one, which has a border of one voxel on every side.
 double whole_bytes(const measure::VolumeWork& work) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   if (work.options.sampler == Sampler::packed) {
@@ -226,8 +227,8 @@ TEST(Parts, StayWithinTheBound) {
   });
 }
 
-// These volumes have no memory budget, but they are deeper than the images that many devices
-// support.
+// No memory budget is set here. Devices draw this volume in parts if it is deeper than the images
+// that they support.
 TEST(Parts, VolumesDeeperThanAnyImageStayWithinTheBound) {
   on_every_driver([](measure::Device& device) {
     scene::Volume volume{.size = {5, 4, 5000}, .type = scene::ScalarType::u8, .range_hi = 100};

@@ -14,9 +14,10 @@ namespace {
 
 using testing::HasSubstr;
 
-// Whether the fault makes some configurations fail before images are compared, because none of the
-// pixels in their image was written. `perhaps`: a copy is too short, and the pixels that are not
-// copied may or may not look unwritten, depending on what the driver's memory contained before.
+// States whether a fault makes some configurations fail before images are compared, because their
+// image looks as if none of its pixels was written. `perhaps` is for a fault that copies too few
+// bytes. Depending on the earlier contents of the driver's memory, the pixels that are not copied
+// may or may not look unwritten.
 enum class Undrawn : std::uint8_t { no, yes, perhaps };
 
 struct Fault {

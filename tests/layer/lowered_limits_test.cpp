@@ -25,8 +25,8 @@ struct Lowered {
   const char* reason = "";  // the reason of each of them
 };
 
-// The lowest values that the specification allows. If a small image could not reach such a limit,
-// the value is lowered further.
+// Returns the lowered limits. Each has the lowest value that the specification allows, or a lower
+// value if a small image could not reach the limit otherwise.
 const std::vector<Lowered>& lowered() {
   static const std::vector<Lowered> all{
       {"maxImageDimension1D=4096", volume},

@@ -142,7 +142,8 @@ TEST(GlDevices, ExceededLimitsAreReportedWithBothNumbers) {
   });
 }
 
-// A scene is rejected even if only its counting frames need a larger buffer than the limit permits.
+// A scene is rejected even if only the frames that count work need a larger buffer than the limit
+// permits.
 TEST(GlDevices, CountersAndBrickMapsMustFitIntoAStorageBlock) {
   static constexpr const char* limit = "GL_MAX_SHADER_STORAGE_BLOCK_SIZE";
   for_each_device([](const measure::Device& device) {

@@ -142,7 +142,7 @@ scene::ParticleScene large_before_small() {
 }
 
 // Returns the number of work groups of 64 invocations that a frame has in addition to those that
-// resolve tiles. The comments at the ends of lines name the passes, which tiles.glsl describes.
+// resolve (draw) tiles. Each line of the sum names its passes, which tiles.glsl describes.
 std::uint64_t groups_of_other_passes(const scene::ParticleScene& scene,
                                      const technique::TileRounds& rounds) {
   constexpr std::uint64_t group = 64;

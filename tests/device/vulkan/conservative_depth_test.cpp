@@ -30,7 +30,8 @@ std::set<std::uint32_t> execution_modes(std::string_view code) {
   return modes;
 }
 
-// Both the timed build and the counting build must declare conservative depth.
+// The SPIR-V that is used for timing and the SPIR-V that also counts its work must both declare
+// conservative depth.
 TEST(ConservativeDepth, IsDeclaredExactlyWhenItIsOn) {
   for (const std::string build : {"", "_counting"}) {
     SCOPED_TRACE(build);

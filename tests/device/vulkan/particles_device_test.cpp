@@ -231,8 +231,8 @@ TEST(VulkanParticles, CountersAddUpAndRepeat) {
         EXPECT_EQ(counts.at("particles_submitted") + counts.at("particles_culled"), 20000U);
         EXPECT_LE(counts.at("sprites"), counts.at("particles_submitted"));
         EXPECT_EQ(counts.at("particles_culled") == 0, culling == Culling::none) << technique;
-        // `tiles` culls only the particles that earlier rounds have hidden. With few rounds, these
-        // are few.
+        // `tiles` draws ranges of particles in rounds, and culls only the particles that earlier
+        // rounds have hidden. With few rounds, these are few.
         const std::uint64_t factor = technique == "tiles" ? 1 : 2;
         EXPECT_GE(counts.at("particles_culled"), factor * culled) << technique;
         culled = counts.at("particles_culled");

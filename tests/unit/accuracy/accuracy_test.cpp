@@ -43,9 +43,10 @@ TEST(FitOrder, FindsTheOrderAndItsInterval) {
   EXPECT_NEAR(first->order, 1, 1e-12);
 }
 
-// The expected interval was computed by hand for ln e = 2·ln h ± 0.1, with alternating signs over
-// four step sizes. The slope deviates by Σ(x − x̄)d/Σ(x − x̄)², and the half width is t₀.₉₇₅(2) =
-// 4.3027 standard errors.
+// The expected interval was computed by hand for the errors e of four step sizes h, with ln e =
+// 2·ln h + d. The deviations d are −0.1 and 0.1 in turn. With x = ln h, whose mean is x̄, the slope
+// deviates from 2 by Σ(x − x̄)d/Σ(x − x̄)², and the half width is t₀.₉₇₅(2) = 4.3027 standard
+// errors.
 TEST(FitOrder, TheIntervalUsesStudentsT) {
   const std::vector<double> steps{1, 0.5, 0.25, 0.125};
   double sign = 0.1;

@@ -76,7 +76,8 @@ TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
                     Not(HasSubstr("no differences"))));
 }
 
-// Without a measured time, the shift is 0 and must not be divided by the work.
+// Without a measured time, the estimated shift between the times of the two sides is 0. The screen
+// must not relate this 0 to the change of work.
 TEST(ComparisonScreen, HasNoTimePerWorkWithoutAMeasuredTime) {
   ComparisonResult result;
   result.timed = true;

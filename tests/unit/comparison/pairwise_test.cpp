@@ -81,8 +81,10 @@ std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
   return values;
 }
 
-// The normal approximation omits the following terms of the Edgeworth series. Because V is
-// symmetric, the first of them is φ(z)(3z − z³)·κ₄/(24σ⁴) with κ₄ = −Σi⁴/8 and φ(z)(3z − z³) ≤
+// The test statistic V is the sum of the ranks i = 1 … n of the positive differences. The normal
+// approximation is the first term of the Edgeworth series of its distribution. Because V is
+// symmetric, the next term is φ(z)(3z − z³)·κ₄/(24σ⁴), where z is the standardised V, φ the normal
+// density, σ² the variance of V, and κ₄ = −Σi⁴/8 its fourth cumulant. φ(z)(3z − z³) is at most
 // 0.551. Another 10 % are allowed for all further terms.
 TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
   constexpr std::size_t n = most_for_exact + 1;
@@ -274,7 +276,8 @@ TEST(Confirm, ASlowdownInOneProcessRunIsNotConfirmed) {
             PairVerdict::undecided);
 }
 
-// Because 1000 more suspects are tested, the evidence against the first suspect must be stronger.
+// Suspects are configurations that seemed slower or faster. If 1000 more suspects are tested, the
+// evidence against the first suspect must be stronger, because each test can be wrong by chance.
 TEST(Confirm, CountsTheSuspectsAsHypotheses) {
   std::vector<Suspect> suspects{{{0.0135, 0.0175, 0.0095, 0.0155, 0.0115}, true}};
   EXPECT_EQ(confirm(suspects, 0.05, SequentialDesign::standard())[0].verdict, PairVerdict::slower);

@@ -1,5 +1,6 @@
-// Tests how statistics of a new driver version are compared, given the calibrations of the new and
-// of the stored versions.
+// Tests how pipeline statistics of a new driver version are compared with stored statistics. A
+// calibration states how correctly a driver version counts each statistic. Whether numbers can be
+// compared depends on the calibrations of both versions.
 
 #include <gmock/gmock.h>
 

@@ -156,8 +156,9 @@ TEST_F(KnownGateTest, AHangThatDoesNotRepeatCannotBeJudged) {
   EXPECT_THAT(written_by(right.result), SizeIs(0));
 }
 
-// A crash is reported under the first check. Configurations that only sum samples have no image
-// when they are drawn again, so their second run has no finding under that check.
+// A crash is reported under the first check, which is `image` here. A configuration of
+// speed_of_light, which only sums samples, has no image that could be judged. When it is drawn
+// again without a crash, it therefore has no finding under the check `image`.
 TEST_F(KnownGateTest, ACrashWithoutAnImageCanBeAFlake) {
   const auto sums = [](record::Record& record, core::Image&) {
     if (record.device != known_device || record.configuration != plain_) return;

@@ -15,8 +15,9 @@ record::Record record_of(std::uint64_t sprites, std::uint64_t fragments, double 
   return record;
 }
 
-// The edges of 100 squares of 10 × 10 pixels have a total length of 4,000 pixels. With a rasterizer
-// grid of 1/256 pixel, an edge may differ by 1/128 pixel between two drivers.
+// Open fragments are those that one correct driver may draw and another may not. The edges of 100
+// squares of 10 × 10 pixels have a total length of 4,000 pixels. With a rasterizer grid of 1/256
+// pixel, an edge may differ by 1/128 pixel between two drivers.
 TEST(OpenFragments, AreThoseAlongTheEdges) {
   const record::Record record = record_of(100, 10000, 8);
   const double fluctuation = 5 * std::sqrt(4 * 10000 / 128.0);

@@ -91,7 +91,8 @@ class FakeSuite final : public Suite {
     return {.technique = configuration.at("technique"), .scene = std::move(volume)};
   }
 
-  // The data "full" contain no empty bricks.
+  // Declares that skip=bricks does the same work as skip=none with the data "full", because these
+  // data contain no empty bricks.
   PlainWork plain(const Configuration& configuration, const Work&) const override {
     PlainWork plain{.levels = configuration};
     if (configuration.at("data") == "full" && configuration.at("skip") == "bricks") {

@@ -67,8 +67,8 @@ TEST_F(PlanTest, AutoIsEveryTechniqueThatDraws) {
 TEST_F(PlanTest, AutoIsReplacedByANamedLevel) {
   const std::string yaml = "suite: fake\ntechnique: auto\n";
   EXPECT_THAT(load(yaml, {{"technique", {"raycast"}}}).automatic, IsEmpty());
-  // `sampler: auto` stands for the device's default path, which is known without measuring
-  // anything.
+  // `sampler: auto` stands for the device's default sampler, which is known without measuring
+  // anything. Therefore it is not listed as automatic.
   EXPECT_THAT(load("suite: fake\nsampler: auto\n").automatic, IsEmpty());
 }
 

@@ -34,7 +34,8 @@ class TurnsTest : public RunTest {
     return result;
   }
 
-  // Which side ended, and how, when side b measured a configuration with an injected fault.
+  // The two compared programs are called sides. `side` is the side whose worker ended when side b
+  // measured a configuration with an injected fault.
   struct Ended {
     Side side;
     Outcome outcome;
@@ -60,7 +61,8 @@ TEST_F(TurnsTest, TheDifferenceIsTheLogarithmOfTheRatio) {
   hold(interleaved);
   const std::vector<Block> all = blocks(interleaved, 6);
   EXPECT_EQ(interleaved.frames_per_batch(), 1);
-  EXPECT_EQ(interleaved.times_per_block(), 4);  // four batches of 3 ms must last at least 40 ms
+  // A block repeats its four batches of 3 ms, two of each side, until it lasts at least 40 ms.
+  EXPECT_EQ(interleaved.times_per_block(), 4);
   EXPECT_THAT(differences(all, SideClock::wall), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_THAT(differences(all, SideClock::device), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_TRUE(device_clock_holds(all));
@@ -89,15 +91,16 @@ TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
   hold(interleaved);
   // A batch of the faster side lasts a millisecond.
   EXPECT_EQ(interleaved.frames_per_batch(), 10);
-  EXPECT_EQ(interleaved.times_per_block(), 10);  // a block of such batches lasts 40 ms
+  EXPECT_EQ(interleaved.times_per_block(), 10);  // ten repetitions of four batches fill 40 ms
   const Block block = interleaved.block();
   // Times are means over the frames of a batch.
   EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);
   EXPECT_NEAR(block.b.wall_ns[1], 4e5, 1);
 }
 
-// The result of a block is wrong only if all ten first or all ten second batches of b are
-// disturbed, which has a probability of 1/85000.
+// A block measures two batches of each side, repeats them ten times, and uses the smallest time of
+// each batch. Its result is wrong only if all ten repetitions of the first or of the second batch
+// of b are disturbed, which has a probability of 1/85000.
 TEST_F(TurnsTest, ADisturbanceOfPartOfABlockDoesNotCount) {
   a.environment = {script_with(R"("base_ns": 1e6, "ns_per_sample": 0)")};
   b.environment = {script_with(

@@ -61,8 +61,8 @@ record::Counts exact_counts(const Work& work) {
   throw std::logic_error("a work that is no calibration scene");
 }
 
-// A function that changes the exact statistics of statistics frame n (zero-based) of a
-// configuration.
+// A function that changes the exact statistics of a frame. `n` is the zero-based number of the
+// frame among those of the same work that report statistics.
 using Script = std::function<void(const Work&, int n, record::Counts&)>;
 
 class CountingPrepared final : public Prepared {

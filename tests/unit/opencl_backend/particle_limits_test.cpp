@@ -19,7 +19,8 @@ TEST(BinTable, ChunksDependOnTheParticlesAlone) {
   EXPECT_EQ(bin_table(2048, 2048, 1000000).chunks, 512U);
 }
 
-// With 512 chunks, the counts for 8192×8192 pixels would need half a gigabyte.
+// The table has a count for each pair of a tile and a chunk (a range of particles). With 512
+// chunks, the table for 8192×8192 pixels would need half a gigabyte.
 TEST(BinTable, StaysSmallForLargeImages) {
   for (const int edge : {4096, 8192, 16384, 32768}) {
     const BinTable table = bin_table(edge, edge, 1000000);

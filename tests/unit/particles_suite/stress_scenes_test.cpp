@@ -134,7 +134,8 @@ TEST(StressScenes, EqualSpheresShowTheLowestId) {
   EXPECT_EQ(seen.ids(), (std::set<std::uint32_t>{0, 1, 2, 3, 4}));
 }
 
-// S4: the visible part of each sphere is on that sphere's side of every bisecting plane.
+// According to the closed-form solution S4 (reference/sphere_closed_forms.hpp), the visible part of
+// each sphere is on that sphere's side of every bisecting plane.
 TEST(StressScenes, InterpenetratingSpheresMeetInBisectingPlanes) {
   const Seen seen = see("stress:interpenetrating");
   const scene::ParticleSet& set = *seen.scene.particles;

@@ -24,8 +24,8 @@ using ::testing::StartsWith;
 
 class MergeFailure : public StoreTest {
  protected:
-  // Creates a shard. The row of its device is so large that it needs pages of its own, which are
-  // written last.
+  // Creates a shard, which is a store with a part of a plan's records. The row of its device is so
+  // large that it needs pages of its own, which are written last.
   fs::path shard(int number, std::size_t record_bytes = 100) {
     fs::path file = folder_ / fmt::format("shard-{}", number);
     Store store(file, Store::Mode::append);

@@ -66,7 +66,7 @@ void replace_all(std::string& text, std::string_view from, const std::string& to
 
 class MergeLoad : public StoreTest {
  protected:
-  // Creates shard `index` of `count`.
+  // Creates shard `index` of `count`. A shard is a store with a part of a plan's records.
   [[nodiscard]] fs::path shard(int index, int count, int records) const {
     fs::path file = folder_ / fmt::format("shard-{}.sqlite", index);
     const std::string run = fmt::format("run-{:03}", index);

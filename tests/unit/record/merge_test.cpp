@@ -53,7 +53,7 @@ Record failed(int number, Outcome outcome = Outcome::crashed) {
 
 class Merge : public StoreTest {
  protected:
-  // Creates a shard whose run began at the given second.
+  // Creates a shard (a store with a part of a plan's records) whose run began at the given second.
   fs::path shard(int second, const std::vector<Record>& records,
                  const Device& device = sample_device()) {
     fs::path file = folder_ / fmt::format("shard-{}.sqlite", second);

@@ -92,8 +92,9 @@ TEST(SphereClosedForms, EntryIsOnTheSphereAndIsWhatIsShown) {
   }
 }
 
-// At a distance of 1e5 radii, where the disc covers about 200 pixels, formula S2 must still
-// classify every pixel of the mask correctly.
+// At a distance of 1e5 radii, the sphere covers a disc that is about 200 pixels wide. The
+// intersection of ray and sphere (formula S2) must still decide correctly for every pixel whether
+// it is inside.
 TEST(SphereClosedForms, FarSpheresKeepTheirMask) {
   const double fov = 2 * std::asin(1e-5) * 180 / pi * 1.3;
   auto scene = scene_of(set_of({{0, 0, 0, 1}}), 256, 256, fov);
