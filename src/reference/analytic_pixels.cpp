@@ -54,8 +54,8 @@ AnalyticPixel finish(const Setting& setting, const std::array<Radiance, 3>& chan
   return pixel;
 }
 
-// Returns the error of the image that is caused by the table alone (derived in
-// analytic_scenes.hpp).
+// Returns the error of the image that is caused by the table of the transfer function alone
+// (derived in analytic_scenes.hpp).
 double table_error(const Setting& setting, double length) {
   const Medium& medium = setting.medium;
   const double u = setting.voxel;
@@ -142,10 +142,11 @@ Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double l
   return v1_constant(depth, colour, 1.0);
 }
 
-// Returns ∫ |error of g| ds along the ray. The error is caused by trilinear interpolation and, near
-// the faces, by clamping. The derivatives are replaced by their maxima within the diagonal of a
-// cell: |∂ᵢg| = rᵢ·g/σ² and |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ², where rᵢ is the distance from the centre
-// along axis i.
+// Returns ∫ |error of g| ds along the ray, where g = e^(−r²/2σ²) is the value of v4_gaussian at
+// distance r from the centre. The error is caused by trilinear interpolation and, near the faces,
+// by clamping. The derivatives are replaced by their maxima within the diagonal of a cell:
+// |∂ᵢg| = rᵢ·g/σ² and |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ², where rᵢ is the distance from the centre along
+// axis i.
 double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   constexpr int intervals = 512;
   const double sigma = blob_sigma(setting);
@@ -333,8 +334,8 @@ AnalyticPixel shell_pixel(const Setting& setting, int x, int y) {
       -std::expm1(-setting.medium.largest * unsure) + table_error(setting, chord.length()));
 }
 
-// The product of three heights is a cubic polynomial along the ray, which the two-point Gauss rule
-// integrates exactly.
+// The extinction is proportional to heights_product(), which is a cubic polynomial along the ray.
+// The two-point Gauss rule integrates it exactly.
 AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   const Chord chord = chord_of(setting, x, y);
   const std::vector<double> at = cuts_of_all_axes(setting, chord);
@@ -352,9 +353,10 @@ AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
   return finish(setting, channels, error);
 }
 
-// The shaded colour is c·(ambient + diffuse·l) + specular·lⁿ, where n is Shading::exponent, d_z the
-// z component of the ray's direction, L the extent of the box along z, and
-//   l = |d_z|·steepest/gradient_floor·sin(πz/L).
+// The shaded colour is c·(ambient + diffuse·l) + specular·lⁿ, where c is the colour of the medium,
+// n is Shading::exponent, d_z the z component of the ray's direction, L the extent of the box along
+// z, and
+//   l = |d_z|·Wave::steepest/Shading::gradient_floor·sin(πz/L).
 // The gradient is that of the continuous wave. The model error includes the effect of central
 // differences.
 AnalyticPixel wave_pixel(const Setting& setting, int x, int y) {

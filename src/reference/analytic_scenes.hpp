@@ -68,12 +68,12 @@ struct AnalyticPixel {
 //     its smallest extent.
 //   - v6_layers: g is 0 in one layer and 1 in the other.
 //   - v7_shell: g is proportional to the distance from the centre, up to 1.
-//   - v8_trilinear: g is the product of the heights along the three axes, which trilinear
-//     interpolation reproduces.
+//   - v8_trilinear: g is the product of x, y and z, each divided by the extent of the box along its
+//     axis. Trilinear interpolation reproduces this product.
 //   - v9_wave, the only shaded problem, is a homogeneous box with g = a·(1 − cos(πz/L))/2. That is
 //     half a wave, which is symmetric about both faces, like a grid that is clamped to the edge.
-//     The amplitude a keeps the gradient below nine tenths of the shading's floor, so that
-//     brightness is proportional to the gradient.
+//     The amplitude a keeps the gradient below nine tenths of scene::Shading::gradient_floor, so
+//     that brightness is proportional to the gradient.
 //   - v3_plateaus: the kinks of the field, at the outermost voxel centres, are on the plateaus,
 //     which are the lowest and the highest fifth of z. The kinks of its medium are at table
 //     entries. An integration rule that is exact for a linear field therefore has only rounding

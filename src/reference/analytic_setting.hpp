@@ -37,8 +37,9 @@ struct Setting {
 // Returns the standard deviation σ of v4_gaussian.
 [[nodiscard]] double blob_sigma(const Setting& setting);
 
-// Returns the value g of v8_trilinear at p, which is the product of the heights along all axes.
-// Each height is constant in the outermost half voxels.
+// Returns the value g of v8_trilinear at p, which is the product of the coordinates of p, each
+// divided by the extent of the box along its axis. In the outermost half voxels, a coordinate is
+// clamped to the nearest voxel centre.
 [[nodiscard]] double heights_product(const Setting& setting, const glm::dvec3& p);
 
 // The parameters of v7_shell. The value g is the distance from the centre in units of `reach`,

@@ -130,8 +130,8 @@ class CellRule {
 
   [[nodiscard]] bool is_kink(double knot) const { return kinks_[static_cast<std::size_t>(knot)]; }
 
-  // Returns whether an extremum of the field may pass a kink on a device but not here, or vice
-  // versa.
+  // Returns whether an extremum of the field may pass a kink on a device but not in this reference
+  // rule, or vice versa.
   [[nodiscard]] bool touches_a_kink(const Cubic& cubic, double error) const {
     const std::array<double, 4> ends = cubic.monotone_ends();
     return std::any_of(ends.begin() + 1, ends.end() - 1, [&](double s) {

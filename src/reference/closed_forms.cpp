@@ -29,8 +29,9 @@ Radiance v2_ramp(double k) {
 Radiance v3_segment(const LinearSegment& s) {
   const double depth = s.length * (s.tau0 + 0.5 * s.tau1 * s.length);
   const double opacity = -std::expm1(-depth);
-  // −(c₀+c₁l)·E(l) + c₀ is computed as c₀·A − c₁·l·E(l), because the first form would suffer from
-  // cancellation.
+  // The formula in closed_forms.hpp contains −(c₀+c₁l)·E(l) + c₀, where l is the length and E(l)
+  // the transmittance. It is computed as c₀·A − c₁·l·E(l) with the opacity A = 1 − E(l), because
+  // the first form would suffer from cancellation.
   const double integral = transmittance_integral(s.tau0, s.tau1, s.length);
   const double colour = s.colour0 * opacity + s.colour1 * (integral - s.length * std::exp(-depth));
   return {colour, opacity};
@@ -38,9 +39,9 @@ Radiance v3_segment(const LinearSegment& s) {
 
 namespace {
 
-// Computes transmittance_integral() by a Taylor series. The differential equation E' = −(a + bt)·E
-// gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁. The code computes these coefficients
-// multiplied by lengthⁿ.
+// Computes transmittance_integral() by the Taylor series of the transmittance E = Σ eₙ·tⁿ. The
+// differential equation E' = −(a + bt)·E gives the Taylor coefficients (n+1)·eₙ₊₁ = −a·eₙ − b·eₙ₋₁.
+// The code computes these coefficients multiplied by lengthⁿ.
 double taylor_integral(double a, double b, double length) {
   const double x = a * length;
   const double y = b * length * length;
@@ -130,7 +131,7 @@ double erfcx(double x) {
 double dawson(double x) {
   const double size = std::abs(x);
   if (size < 1.0) {
-    // Σ (−2)ⁿ·x^(2n+1)/(2n+1)!!
+    // The power series of Dawson's function, Σ (−2)ⁿ·x^(2n+1)/(2n+1)!!, converges quickly here.
     double term = x;
     double sum = x;
     for (int n = 1; n < 40 && std::abs(term) > 1e-18 * std::abs(sum); ++n) {
@@ -139,8 +140,9 @@ double dawson(double x) {
     }
     return sum;
   }
-  // Rybicki (Computers in Physics 3, 1989): (1/√π)·Σ over odd n of e^(−(x−nh)²)/n. The error is
-  // e^(−(π/2h)²) = 7e-18 for h = 1/4. Terms farther away than 6.5 are below 5e-19.
+  // Dawson's function is approximately (1/√π)·Σ e^(−(x−nh)²)/n, summed over all odd n (Rybicki,
+  // Computers in Physics 3, 1989). The error is e^(−(π/2h)²) = 7e-18 for h = 1/4. Terms farther
+  // away than 6.5 are below 5e-19.
   constexpr double h = 0.25;
   const double centre = std::floor(size / h);
   double sum = 0.0;

@@ -111,8 +111,8 @@ glm::dvec3 Field<Stored>::Slopes::steepest() const {
   return glm::max(glm::abs(lo), glm::abs(hi));
 }
 
-// Returns the extremes of the slopes over every cell that may contain the position, for an error
-// below half a voxel.
+// Returns the extremes of the slopes over every cell that may contain the position if it has an
+// error of up to e. e must be below half a voxel.
 template <typename Stored>
 typename Field<Stored>::Slopes Field<Stored>::slopes_around(const std::array<Place, 3>& places,
                                                             const glm::dvec3& e) const {
