@@ -22,7 +22,8 @@ constexpr double largest_arithmetic_share = 0.1;
 constexpr std::size_t least_points = 3;
 constexpr double tail = 0.025;  // probability of each tail outside a 95 % confidence interval
 
-// Returns the factors whose levels differ among the cases, except for `step`.
+// Returns the factors (settings of a configuration) whose values differ among the cases, except for
+// the factor `step`.
 std::set<std::string> telling_factors(std::span<const AccuracyCase> cases) {
   std::set<std::string> names;
   for (const AccuracyCase& each : cases) {

@@ -126,7 +126,7 @@ struct Switched {
                                                        std::span<const AccuracyCase> others,
                                                        std::string_view factor);
 
-// The errors for which the cost is reported: one 8-bit step, a quarter of an 8-bit step, and 1e-4.
+// The errors for which the cost is reported: one 8-bit step, about a quarter of that, and 1e-4.
 inline constexpr double accuracy_goals[]{1.0 / 255, 1.0 / 1024, 1e-4};
 
 }  // namespace triptych::accuracy

@@ -10,8 +10,9 @@
 
 namespace triptych::accuracy {
 
-// The reference point of the area. Its coordinates do not depend on the measurements; otherwise,
-// the area of one front would change whenever another front changes:
+// hypervolume() computes the area between a front and this reference point. The coordinates of the
+// point do not depend on the measurements; otherwise, the area of one front would change whenever
+// another front changes:
 //   - time: one second, which is too long for any interactive frame. An error that is not reached
 //     counts as if it took one second.
 //   - error: the error of an image in which nothing was drawn (0 in every channel), which takes no

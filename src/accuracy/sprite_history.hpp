@@ -21,8 +21,8 @@ struct ShownSurface {
 };
 
 // The surface that the reference renderer shows in a pixel, and the differences that are allowed on
-// a device. If the pixel is not certain, a device may show a different id and depth, and the colour
-// bound covers these cases.
+// a device. A pixel is certain if rounding cannot change which particle is visible. If the pixel is
+// not certain, a device may show a different id and depth, and the colour bound covers these cases.
 struct ExpectedSurface {
   std::uint32_t id = 0;
   double depth = 0;

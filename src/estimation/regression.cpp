@@ -17,7 +17,9 @@ namespace {
 using Points = std::span<const double>;
 
 constexpr std::size_t parameters = 2;
-constexpr double half = 0.5;  // breakdown point, and the mean of ρ that defines the scale
+// The breakdown point (the tolerated share of outliers). It is also the mean of ρ, Tukey's bisquare
+// function (regression.hpp), that defines the scale of residuals.
+constexpr double half = 0.5;
 constexpr int most_steps = 200;
 constexpr double step_tolerance = 1e-10;
 // The number of lines through two points that the S-estimate tries: for up to 45 points the lines
@@ -97,8 +99,9 @@ double least_scale(Points y) {
   return 1e-13 * std::max(largest, std::numeric_limits<double>::min());
 }
 
-// Returns the scale of the residuals, which is the fixed point of s² ← s²·mean ρ/½. The iteration
-// approaches it from one side (Maronna et al. 2019, section 9.4).
+// Returns the scale s of the residuals, for which mean_rho(residuals, s) is 1/2. It is found by
+// iterating s² ← s²·mean_rho(residuals, s)/½, which approaches it from one side (Maronna et al.
+// 2019, section 9.4).
 double m_scale(Points residuals, double least) {
   std::vector<double> sizes(residuals.size());
   std::ranges::transform(residuals, sizes.begin(), [](double r) { return std::abs(r); });

@@ -86,9 +86,9 @@ std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values
   return adjusted;
 }
 
-// Applies Newton's method to 1/ψ', which is convex and nearly linear, so that the iteration
-// converges from one side (Smyth 2004, appendix). For very large and very small y, the asymptotes
-// are exact in double precision.
+// Applies Newton's method to 1/ψ', where ψ' is the trigamma function. 1/ψ' is convex and nearly
+// linear, so that the iteration converges from one side (Smyth 2004, appendix). For very
+// large and very small y, the asymptotes are exact in double precision.
 double inverse_trigamma(double y) {
   if (y > 1e7) return 1 / std::sqrt(y);
   if (y < 1e-6) return 1 / y;
@@ -108,8 +108,9 @@ VariancePrior fit_variance_prior(std::span<const double> variances,
   using boost::math::trigamma;
   if (variances.empty()) return {};
   if (variances.size() == 1) return {0, variances.front()};
-  // e = ln s² − ψ(d/2) + ln(d/2) has the mean ln s₀² − ψ(d₀/2) + ln(d₀/2) and the variance
-  // ψ'(d/2) + ψ'(d₀/2).
+  // Let s² be the variance of a group, d its degrees of freedom, d₀ and s₀² the parameters of the
+  // prior, ψ the digamma function and ψ' the trigamma function. Then ln s² − ψ(d/2) + ln(d/2) has
+  // the mean ln s₀² − ψ(d₀/2) + ln(d₀/2) and the variance ψ'(d/2) + ψ'(d₀/2).
   std::vector<double> centred;
   std::vector<double> sampling;
   for (std::size_t i = 0; i < variances.size(); ++i) {

@@ -1,5 +1,5 @@
 #pragma once
-// Statistics for the gate, as plain functions of numbers.
+// Statistics for the gate (Triptych's regression check), as plain functions of numbers.
 
 #include <cstddef>
 #include <span>
@@ -43,7 +43,7 @@ struct VariancePrior {
 // Returns the moderated variance s̃² = (d₀s₀² + d·s²)/(d₀ + d).
 [[nodiscard]] double moderated_variance(const VariancePrior& prior, double variance,
                                         double degrees);
-// Returns the x > 0 with ψ'(x) = y, for y > 0.
+// Returns the x > 0 for which the trigamma function ψ'(x) is y, for y > 0.
 [[nodiscard]] double inverse_trigamma(double y);
 
 }  // namespace triptych::estimation
