@@ -30,8 +30,8 @@ struct FilePlace {
   int column = 0;
 };
 
-// Bad input, such as a broken file, an unknown factor or a wrong type. Leads to exit code 3. what()
-// has the form "FILE:LINE:COLUMN: MESSAGE".
+// Bad input, such as a broken file, a wrong type or an unknown factor (setting). what() has the
+// form "FILE:LINE:COLUMN: MESSAGE". Leads to exit code 3.
 class InputError : public Error {
  public:
   InputError(FilePlace place, const std::string& message);

@@ -24,9 +24,9 @@ struct Look {
   double intensity = 0;
 };
 
-// Returns the rank of each kind. Ranks do not depend on the order of the kinds in the file:
-// elements are sorted by atomic number, numbered types by number, and all other kinds follow,
-// sorted by name.
+// Returns the rank of each kind (element or numbered type). Ranks do not depend on the order of the
+// kinds in the file: elements are sorted by atomic number, numbered types by number, and all other
+// kinds follow, sorted by name.
 std::vector<std::size_t> ranks_of(const Atoms& atoms) {
   const auto key = [&atoms](std::size_t kind) {
     const std::string& name = atoms.kind_names[kind];

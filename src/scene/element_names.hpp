@@ -28,8 +28,9 @@ inline constexpr std::string_view unknown_element = "X";
 // in columns 13 and 14. In an unknown residue, "CA " is therefore calcium, and " CA " is carbon.
 [[nodiscard]] NamedElement element_of_columns(std::string_view columns, std::string_view residue);
 
-// Returns a temporary kind for an atom whose element the file does not state. name_elements()
-// replaces it with an element. `columns` may contain the blanks that align the name.
+// Returns a temporary kind (an index into Atoms::kind_names) for an atom whose element the file
+// does not state. name_elements() replaces it with an element. `columns` may contain the blanks
+// that align the name.
 [[nodiscard]] std::uint32_t unnamed_kind(Atoms& atoms, std::string_view columns,
                                          std::string_view residue);
 

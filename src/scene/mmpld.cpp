@@ -129,7 +129,7 @@ List read_list(Bytes& bytes, int version) {
   }
   if (version >= 103) static_cast<void>(bytes.take_many(6, sizeof(float), "the list's box"));
   list.data = bytes.take_many(list.count, list.stride(), "the list's particles");
-  if (version == 101) {  // the number of clusters, the size of their data, and the data
+  if (version == 101) {  // skips the clusters: their number, the size of their data, and the data
     static_cast<void>(bytes.take<std::uint32_t>("the number of clusters"));
     const auto size = bytes.take<std::uint64_t>("the size of the clusters");
     static_cast<void>(bytes.take_many(size, 1, "the clusters"));

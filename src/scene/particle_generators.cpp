@@ -254,13 +254,14 @@ void coincident(Maker& maker) {
 }
 
 // Creates a wall across the front of the cube, as seen from +z, and hidden spheres behind it. The
-// wall has no gaps: in its plane, each sphere extends beyond the corners of its square, so no ray
-// passes through. The wall consists of about `seen` spheres in complete rows. The very last sphere
-// touches the back of the cube. Sets with equal walls therefore have equal bounding boxes, and the
-// same cameras apply to them.
+// wall is a lattice of squares with a sphere in the middle of each square. It has no gaps: in its
+// plane, each sphere extends beyond the corners of its square, so no ray passes through. The wall
+// consists of about `seen` spheres in complete rows. The very last sphere touches the back of the
+// cube. Sets with equal walls therefore have equal bounding boxes, and the same cameras apply to
+// them.
 void walled(Maker& maker, std::uint64_t seen) {
   static constexpr double reach =
-      0.75;  // radius as a fraction of a square's edge; the corner is at √½
+      0.75;  // radius, in edges of a square, whose corners are √½ edges from its middle
   maker.colour_along(2, cube);
   const auto rows =
       seen > 1 ? static_cast<std::uint64_t>(std::sqrt(static_cast<double>(seen - 1))) : 0;

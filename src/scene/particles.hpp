@@ -63,11 +63,11 @@ struct ParticleSet {
 // finished fraction of the work, in [0, 1].
 using Progress = std::function<void(double share)>;
 
-// Loads particles. `data` has the same form as in a plan: "generate:NAME:COUNT"
-// (scene/particle_generators.hpp), or a file in one of the formats in scene/particle_formats.hpp,
-// which may be compressed with gzip or bzip2. "FILE@K" selects frame K of a trajectory (0-based).
-// The default is the first frame. A relative file name is first looked up in the working directory,
-// and then in each of `folders`.
+// Loads particles. `data` has the same form as in a plan (a file that defines the configurations to
+// measure): "generate:NAME:COUNT" (scene/particle_generators.hpp), or a file in one of the formats
+// in scene/particle_formats.hpp, which may be compressed with gzip or bzip2. "FILE@K" selects frame
+// K of a trajectory (0-based). The default is the first frame. A relative file name is first looked
+// up in the working directory, and then in each of `folders`.
 //
 // Radii are taken from the file if it has them (MMPLD, PQR, LAMMPS `radius`). Otherwise they are
 // the van der Waals radii of the elements (Bondi 1964; 2.0 Å for elements not listed there), in the

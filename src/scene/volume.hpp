@@ -109,9 +109,9 @@ struct Component {
 // Parses a level such as "2" or "magnitude". Throws InputError.
 [[nodiscard]] Component parse_component(std::string_view text);
 
-// Loads a volume. `data` has the same form as in a plan: "generate:NAME:SIZE" or
-// "generate:NAME:NXxNYxNZ" (scene/generators.hpp), a file in one of the formats in
-// scene/volume_formats.hpp, or "FILE:NXxNYxNZ:TYPE" for voxels without a header
+// Loads a volume. `data` has the same form as in a plan (a file that defines the configurations to
+// measure): "generate:NAME:SIZE" or "generate:NAME:NXxNYxNZ" (scene/generators.hpp), a file in one
+// of the formats in scene/volume_formats.hpp, or "FILE:NXxNYxNZ:TYPE" for voxels without a header
 // (scene/raw_spec.hpp). A relative file name is first looked up in the working directory, and then
 // in each of `folders`. Throws InputError with file and line, and IoError if the file does not
 // exist.

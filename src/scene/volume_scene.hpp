@@ -61,7 +61,7 @@ struct VolumeScene {
   [[nodiscard]] double smallest_spacing() const;
   [[nodiscard]] double step_world() const { return step_voxels * smallest_spacing(); }
   // Returns the number of parts into which Quadrature::cells splits each segment of the ray between
-  // two planes.
+  // two planes of voxel centres.
   [[nodiscard]] int parts_of_cell() const;
 };
 

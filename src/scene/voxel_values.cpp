@@ -126,7 +126,8 @@ template <typename From, typename To>
 std::uint64_t lengths(Volume& volume, const ValueLayout& layout, std::uint64_t needed,
                       const ByteSource& source) {
   Voxels<To> voxels(volume.voxels, volume.voxel_count());
-  std::vector<double> sums;  // one per voxel of a block; grows as values are read
+  // One sum for each voxel of the current block (ValueLayout::block). Grows as values are read.
+  std::vector<double> sums;
   std::size_t at = 0;
   return for_each_value<From>(layout, needed, source, [&](From value, std::uint64_t component) {
     const double scaled = layout.slope * static_cast<double>(value) + layout.intercept;

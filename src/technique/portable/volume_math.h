@@ -59,7 +59,8 @@ TRI_FN real tri_table_position(real x) {
 // Returns log2(1 − alpha), computed as in the single-precision version below, with an error of 6u. With
 // t = (m − 1)/(m + 1) and |t| ≤ 3 − 2√2, truncating the series after t¹⁹ causes an error below
 // t²⁰/(21·(1 − t²)) < 2.5e-17 = 0.3u. The remaining error consists of two roundings in t, one in the last sum of the
-// series, two in products, and half a rounding in the constant. The roundings of t² are negligible, because they are multiplied by t² itself.
+// series, two in products, and half a rounding in the constant. The roundings of t² are negligible, because they are
+// multiplied by t² itself.
 TRI_FN real tri_log2_1m(real alpha) {
   real y = 1.0f - alpha;
   int high = TRI_HIGH_WORD(y);
