@@ -251,7 +251,7 @@ struct Finding : Observation {
   bool measured_before = false;
   Excuse excuse = {};
   Again drawn_again = Again::not_drawn;
-  // The finding of the second attempt, if its cause differs.
+  // The finding of the second attempt, if its cause differs from the cause of this finding.
   std::vector<Observation> again = {};
 };
 // Like kind_of(const Observation&), but the string also depends on the subject, the excuse, the

@@ -87,8 +87,8 @@ std::vector<double> sorted_numbers(std::vector<double> samples) {
 std::string Device::key() const {
   std::string key = fmt::format("{}; driver {}; API {}", one_line(id), one_line(driver_version),
                                 one_line(api_version));
-  // For a CPU device, the CPU features determine the generated code. GPUs with the same driver are
-  // distinguished by their names.
+  // The key of a CPU device contains its CPU features, which determine the generated code. The key
+  // of a GPU contains its name, which distinguishes GPUs with the same driver.
   if (!cpu_features.empty()) {
     key += "; CPU " + one_line(cpu_features);
   } else if (!name.empty()) {

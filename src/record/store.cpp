@@ -114,9 +114,9 @@ void Store::begin(const std::string& run, const Beginning& beginning,
       known.planned_hash = hash_of_planned(planned);
       insert_run(state_->database, known);
     });
-    // If the run is killed, even a copy of the store without its log must contain the beginning of
-    // this run. Otherwise the latest run in the copy would be a previous run, which may have
-    // passed.
+    // Copies the log into the main file. If the run is killed, even a copy of the store without its
+    // log must contain the beginning of this run. Otherwise the latest run in the copy would be a
+    // previous run, which may have passed.
     static_cast<void>(state_->database.tryExec("PRAGMA wal_checkpoint(PASSIVE)"));
   });
 }

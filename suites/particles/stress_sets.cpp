@@ -49,8 +49,8 @@ StressScene stress_no_sphere(std::string_view variant, scene::ColourKind colour)
   const glm::dvec3 before{0, 0, 0.5};
   maker.add({0, 0, 0}, 1);
   if (variant == "vanishing") {
-    // These radii are finite and positive, although their squares are 0 and the last one is not a
-    // normal float.
+    // These radii are finite and positive, although their squares are 0 in single precision. The
+    // last radius is subnormal.
     maker.add(maker.place(48.5, 48.5, 2), 1e-25);
     maker.add(maker.place(30.5, 40.5, 2), 1e-30);
     maker.add(maker.place(50.5, 30.5, 2), 1e-40);

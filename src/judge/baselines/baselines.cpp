@@ -121,8 +121,8 @@ const std::string& Baselines::problem() const {
     try {
       if (problem.empty()) problem = contradiction_in(folder_, manifest());
     } catch (const core::InputError&) {
-      // Ignored here. The check that reads the file reports the invalid value together with its
-      // line.
+      // The error is ignored here, because the check that reads the file reports it, together with
+      // the line.
     }
   }
   cache_->problem = std::move(problem);

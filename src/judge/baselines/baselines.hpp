@@ -96,7 +96,7 @@ struct DriverCode {
   std::map<std::string, record::Code> configurations;
 };
 
-// Counter → device id → value.
+// The values of all counters, by counter and device id.
 using StoredCounters = std::map<std::string, std::map<std::string, std::uint64_t>>;
 
 class Baselines {

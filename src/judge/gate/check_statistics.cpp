@@ -63,8 +63,8 @@ struct Elsewhere {
   std::map<std::string, Change>
       differences;                  // portable statistics that differ from those of every driver
   std::set<std::string> differing;  // the configurations with such differences
-  // (statistic, driver) → how the driver counts the statistic, if it does not count it exactly. An
-  // empty driver stands for this device's own driver.
+  // How a driver counts a statistic, by (statistic, driver). Contains only statistics that the
+  // driver does not count exactly. An empty driver stands for this device's own driver.
   std::map<std::pair<std::string, std::string>, std::string_view> not_compared;
   std::size_t stored = 0;    // number of configurations that are stored for at least one driver
   std::size_t compared = 0;  // number of values that were compared

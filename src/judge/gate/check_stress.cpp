@@ -22,7 +22,7 @@ Verdict verdict_of(int points, std::optional<int> accepted) {
   if (!accepted) return Verdict::cannot_judge;
   if (points < *accepted) return Verdict::regression;
   if (points > *accepted) return Verdict::improved;
-  // A case is reported even if its score is unchanged, unless it has the full score.
+  // A case with an unchanged score is reported as an advisory, unless it has the full score.
   return points == best_stress_score ? Verdict::pass : Verdict::advisory;
 }
 

@@ -62,7 +62,8 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   }
   for (record::Record& record : store.records(run)) {
     if (record.plan != request.plan || !asked_for(request, record.device)) continue;
-    // A device that the store does not describe matches no stored key.
+    // Adds the device if the store does not describe it. In this case, only its id is known, so no
+    // baselines match it.
     record::Device unknown;
     unknown.id = record.device;
     view.devices.try_emplace(record.device, unknown);

@@ -50,8 +50,8 @@ struct RunView {
 // Sorts by verdict (the worst first), then by device, then by the size of the change.
 void sort_findings(std::vector<Finding>& findings);
 
-// (device, configuration) → the error in its image. The time of a record with a wrong image is
-// meaningless.
+// The errors in wrong images, by (device, configuration). The time of a record with a wrong image
+// is meaningless.
 using WrongImages = std::map<std::pair<std::string, std::string>, Observation>;
 
 struct ImageFindings {

@@ -59,12 +59,12 @@ std::variant<Emulator, std::string> look() {
   }
   Emulator found{
       .name = fmt::format("valgrind {} {}", short_version(*version), processor_name()),
-      // The name of the tool determines which libraries Valgrind preloads. With "none"
-      // it preloads nothing; with other names it would replace malloc. Drivers generate
-      // code at run time, so Valgrind must check whether code has changed. The C and C++
-      // libraries need not free their memory at exit, because there is no leak check.
-      // If Valgrind followed jumps while it translates a block, it would translate the
-      // same code several times, which takes an eighth of the time of a counted plan.
+      // The name of the tool determines which libraries Valgrind preloads. With "none" it preloads
+      // nothing; with other names it would replace malloc. Drivers generate code at run time, so
+      // Valgrind must check whether code has changed. The C and C++ libraries need not free their
+      // memory at exit, because there is no leak check. If Valgrind followed jumps while it
+      // translates a block, it would translate the same code several times, which takes an eighth
+      // of the time of a plan that counts instructions.
       .command = {tool, "--tool=none", "--quiet", "--smc-check=all-non-file",
                   "--run-libc-freeres=no", "--run-cxx-freeres=no", "--vex-guest-chase=no"},
       // The tool is started directly, without Valgrind's launcher, and reads the

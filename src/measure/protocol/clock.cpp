@@ -166,8 +166,8 @@ record::ClockTrust calibrate_clock(Device& device, Suite& suite, technique::Work
   } catch (const core::DeviceLost&) {
     throw;
   } catch (const core::Error& error) {
-    // This is not fatal, because the wall clock can still be used. If the device has another
-    // problem, the configurations will reveal it.
+    // The error is not fatal, because the wall clock can still be used. If it shows another problem
+    // of the device, drawing the configurations will reveal that problem.
     return without_time(kind, fmt::format("not calibrated: {}", error.what()));
   }
 }

@@ -33,8 +33,9 @@ struct Protocol {
   // are measured. Triptych's counters and the image are recorded only if they are requested.
   bool counted = false;
   bool picture = true;  // whether the image of a counted frame is recorded
-  // If true, a counted configuration is drawn without the emulator and without a result, so that the
-  // driver stores the compiled code in its cache (run/ahead_compiler.hpp).
+  // If true, a configuration whose instructions are to be counted is first drawn without the
+  // emulator and without a result, so that the driver stores the compiled code in its cache
+  // (run/ahead_compiler.hpp).
   bool ahead = false;
   // If true, the compiler's report about the device code is recorded, and no frame is drawn.
   bool compiled = false;

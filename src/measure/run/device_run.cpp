@@ -228,7 +228,8 @@ void DeviceRun::greet(const Hello& hello) {
 std::chrono::seconds DeviceRun::limit() const {
   const std::chrono::seconds asked = context_.options.limit;
   if (context_.plan.counted()) return std::max(counted_limit, asked);
-  // A limit set by the user applies even if it is shorter.
+  // A plan that only compiles has a longer default limit. A limit that the user has set applies
+  // even if it is shorter.
   return context_.plan.compiled() && asked == record::standard_limit ? compiled_limit : asked;
 }
 

@@ -19,7 +19,7 @@ constexpr std::array error_signals{SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
 constexpr std::size_t handler_stack_bytes = std::size_t{64} << 10U;
 
 void say(std::string_view text) {
-  // If this fails, there is no way to report it.
+  // If write() fails, there is no way to report it, so its result is ignored.
   static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
 }
 

@@ -82,8 +82,8 @@ accuracy::TruthPair Truths::kept(const std::string& scene, const std::string& ve
     drawn.own_seal = own_seal(drawn).value_or("");
     store_.set_truth(drawn);
   } catch (const core::IoError&) {
-    // Ignored: the image is valid even if it could not be stored, for example because the store is
-    // read-only or the disk is full.
+    // The error is ignored, because the image is valid even if it could not be stored, for example
+    // because the store is read-only or the disk is full.
   }
   return rendered;
 }

@@ -101,7 +101,8 @@ void list_compiler(const std::string& id, Listing& listing) {
           fmt::format("the installed driver did not respond within {} s", compiler_limit.count()));
     }
     if (answer == nullptr) {
-      // One possible cause is that RADV aborts if it does not support the requested GPU family.
+      // The driver exited without an answer. One possible cause is that RADV aborts if it does not
+      // support the requested GPU family.
       listing.broken.push_back({.what = id,
                                 .reason = std::string("the installed driver exited without "
                                                       "responding; it may not support this GPU "
@@ -132,7 +133,8 @@ void list_compiler(const std::string& id, Listing& listing) {
   for (const Broken& each : listing.broken) {
     known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",
                          each.reason);
-    // If RADV does not support a GPU family, it prints a message and aborts.
+    // The last output may state the cause. For example, RADV prints a message and aborts if it does
+    // not support a GPU family.
     if (each.ended && !each.ended->last_words.empty()) {
       known += fmt::format(" (its last output: {})", each.ended->last_words);
     }

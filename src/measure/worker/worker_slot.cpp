@@ -39,8 +39,8 @@ bool WorkerSlot::open(const std::function<Start()>& start,
     });
     if (!refused.is_one()) continue;
     if (!refused.unsupported() && attempt + 1 < most_attempts) continue;
-    // A driver that crashes in every attempt may work if pipeline statistics are not read. If it
-    // crashes even then, the statistics are not the cause.
+    // If the driver crashed or hung in the second attempt, one more attempt is made without
+    // pipeline statistics. If it crashes even then, the statistics are not the cause.
     if (reads_statistics && died(refused.reason)) {
       statistics_fault_ = statistics_crash(refused.reason);
     } else {

@@ -1,5 +1,6 @@
 #pragma once
-// A slot for a device's worker. A worker that has ended is replaced when a worker is needed again.
+// Keeps at most one worker process for a device. The slot is occupied while it has a worker. A
+// worker that has ended is replaced when a worker is needed again.
 
 #include <chrono>
 #include <functional>

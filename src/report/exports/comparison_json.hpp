@@ -12,29 +12,30 @@
 
 namespace triptych::report {
 
-// {"kind", "about", "cause", "text"} and, if they are not empty, {"ratio",
-// "side", "numbers", "facts", "changes", "a" and "b" (observations), "worths", "code", "total",
+// Returns {"kind", "about", "cause", "text"} and, if they are not empty, {"ratio", "side",
+// "numbers", "facts", "changes", "a" and "b" (observations), "worths", "code", "total",
 // "injected"}.
 [[nodiscard]] core::Json to_json(const comparison::Difference& difference);
-// The members of a Difference and, in addition, {"configuration", "configurations", "ratio_low",
-// "ratio_high"}.
+// Returns the members of a Difference and, in addition, {"configuration", "configurations",
+// "ratio_low", "ratio_high"}.
 [[nodiscard]] core::Json to_json(const comparison::DifferenceGroup& group);
-// {"cause", "text"} and, depending on the cause, {"side", "outcome", "reason", "suspected",
+// Returns {"cause", "text"} and, depending on the cause, {"side", "outcome", "reason", "suspected",
 // "numbers"}.
 [[nodiscard]] core::Json to_json(const comparison::TimeReason& reason);
 
-// {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences" (between
-// the devices), "configurations": [{"configuration", "reason", "differences", "work"; if times were
-// compared: "verdict", "ratio", "ratio_low", "ratio_high", "blocks", "process_runs",
+// Returns {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences"
+// (between the devices), "configurations": [{"configuration", "reason", "differences", "work"; if
+// times were compared: "verdict", "ratio", "ratio_low", "ratio_high", "blocks", "process_runs",
 // "frames_per_batch", "clock", "why_wall", "seconds", "settle"}]}. Unknown values are left out.
 [[nodiscard]] core::Json to_json(const comparison::ComparisonResult& result,
                                  const ComparisonCommand& command);
 
-// {"exit_code", "only_one": [{"plan", "device", "side", "text"}], "devices": [{"a", "b" (devices),
-// "differences" (between the devices), "configurations": [{"configuration", "differences"}]}]}
+// Returns {"exit_code", "only_one": [{"plan", "device", "side", "text"}], "devices": [{"a", "b"
+// (devices), "differences" (between the devices), "configurations": [{"configuration",
+// "differences"}]}]}
 [[nodiscard]] core::Json to_json(const comparison::StoreDiff& diff);
 
-// [{"device", "first_worse", "points": [{"store", "name", "started_at", "driver_version",
+// Returns [{"device", "first_worse", "points": [{"store", "name", "started_at", "driver_version",
 // "triptych", "injected", "cost", "time", "changes", "differences", "worse"}]}]. "changes" contains
 // the differences as one human-readable string. Unknown values are left out.
 [[nodiscard]] core::Json to_json(const std::vector<comparison::DeviceHistory>& history);

@@ -71,7 +71,7 @@ std::string short_number(double value) {
   if (size == 0) return "0";
   if (size >= 1e15 || size < 1e-3) {
     std::string text = fmt::format("{:.3g}", value);
-    // "1e-06" → "1e-6"
+    // Shortens the exponent: "1e-06" becomes "1e-6".
     if (const auto at = text.find("e-0"); at != std::string::npos) text.erase(at + 2, 1);
     if (const auto at = text.find("e+"); at != std::string::npos) text.erase(at + 1, 1);
     return text;

@@ -37,7 +37,7 @@ void paint(Image& shares, std::size_t i, double share) {
   shares.rgba[i + 3] = 1;
 }
 
-// A pixel beyond the bound.
+// A pixel whose error exceeds its bound.
 struct Beyond {
   double share;
   ShareOfBound::Mark at;

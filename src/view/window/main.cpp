@@ -115,8 +115,8 @@ class Loop {
       window_.begin_frame();
       screen_.draw();
       --frames_due_;
-      // Captures only the last of the due frames, because everything has its final position only
-      // then.
+      // After a change, several frames are due (frames_due_). Only the last of them is captured,
+      // because everything has its final position only then.
       const auto picture = window_.end_frame(capture && frames_due_ == 0);
       if (!picture) continue;
       return core::write_file(core::encode_png(*picture), session_.request().screenshot);
