@@ -22,9 +22,10 @@
 namespace triptych::null_backend {
 namespace {
 
-// The clock calibration draws ever larger images until a frame takes long enough. The time of a
-// scripted frame need not grow with the image, so the calibration would continue up to the largest
-// image that the device supports, which takes seconds to read.
+// The largest width and height that a scripted device supports. The limit keeps the clock
+// calibration short, which draws ever larger images until a frame takes long enough. The time of a
+// scripted frame need not grow with the image, so the calibration may go on up to this size, and
+// reading an even larger image would take seconds.
 constexpr int largest_image = 2048;
 
 // Returns a nearly normally distributed number with mean 0 and variance 1, computed from twelve

@@ -38,8 +38,9 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
   });
 }
 
-// Draws a frame from the previous camera. It needs a pass of its own, because more cells (ranges of
-// neighbouring particles) may be visible from that camera than from the current one.
+// Draws a frame from the previous camera. Creates a separate Pass for this frame, because more
+// cells (ranges of neighbouring particles) may be visible from that camera than from the current
+// one.
 void ParticleFrames::draw_before(const ParticlePrograms& programs,
                                  const measure::ParticleWork& work) {
   look_from(session_, stages_.data(), work.before());

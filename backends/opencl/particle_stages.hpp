@@ -23,7 +23,8 @@ namespace triptych::opencl_backend {
 // TRI_COUNT_… constants.
 inline constexpr std::size_t particle_counter_stride = 8;
 
-// Sorts the listed cells into bins and draws the bins.
+// The data of one pass, which sorts the particles of the listed cells into bins (tiles of pixels)
+// and draws the bins.
 struct Pass {
   cl_uint stride = 1;  // draws only every stride-th cell
   cl::Buffer list;

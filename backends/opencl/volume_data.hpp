@@ -19,12 +19,12 @@ namespace triptych::opencl_backend {
 [[nodiscard]] std::optional<cl::ImageFormat> image_format(const Session& session,
                                                           scene::VoxelFormat voxel);
 
-// Returns the layers of the buffer that the manual sampler reads. The buffer contains the volume
-// with a border on every side that repeats the outermost layer. Cells are counted along z: cell c
-// lies between the slices c and c + 1 of the buffer.
+// Returns the memory layout of the buffer that the manual sampler reads. The buffer contains the
+// volume with a border on every side that repeats the outermost voxels. The layout is divided into
+// cells along z: cell c lies between the slices c and c + 1 of the buffer.
 [[nodiscard]] technique::Layers bordered_layers(const scene::VoxelGrid& grid);
-// Writes `cells` cells, beginning with cell `first` of the volume, to the beginning of a buffer
-// with the layout of bordered_layers(). Throws cl::Error.
+// Writes the slices of `cells` such cells, beginning with cell `first` of the volume, to the
+// beginning of a buffer with the layout of bordered_layers(). Throws cl::Error.
 void write_layers(const Session& session, const cl::Buffer& buffer, const scene::VoxelGrid& grid,
                   int first, int cells);
 
@@ -40,7 +40,8 @@ void write_layers(const Session& session, const cl::Buffer& buffer, const scene:
 [[nodiscard]] cl::Memory upload(const Session& session, const scene::VoxelGrid& grid,
                                 technique::Sampler sampler);
 
-// Caches the most recently drawn volume, because neighbouring configurations of a plan share it.
+// Caches the most recently drawn volume, because consecutive configurations of a plan often draw
+// the same volume.
 class VolumeCache {
  public:
   struct Entry {

@@ -39,7 +39,7 @@ class ComputeFrames final : public measure::Prepared, public measure::TracesPixe
   std::string_view counting_code_;
   std::string_view tracing_code_;  // empty if this work cannot be traced
   vk::Pipeline pipeline_;
-  vk::Pipeline counting_pipeline_;  // null until a counting frame is requested
+  vk::Pipeline counting_pipeline_;  // null until work is to be counted
   Frames frames_;
 };
 

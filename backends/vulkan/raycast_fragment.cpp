@@ -61,7 +61,7 @@ class FragmentFrames final : public measure::Prepared, public measure::TracesPix
   vk::raii::RenderPass render_pass_;
   vk::raii::Framebuffer framebuffer_;
   vk::Pipeline pipeline_;
-  vk::Pipeline counting_pipeline_;  // null until a counting frame is requested
+  vk::Pipeline counting_pipeline_;  // null until work is to be counted
   Frames frames_;
 };
 

@@ -105,7 +105,7 @@ class SpriteFrames final : public measure::Prepared {
   CellCulling culling_;
   std::optional<CellOcclusion> occlusion_;
   Draws draws_;
-  Draws counting_draws_;  // null until a counting frame is requested
+  Draws counting_draws_;  // null until work is to be counted
   Frames frames_;
 };
 

@@ -118,9 +118,10 @@ class VolumeResources {
 
 [[nodiscard]] Constants constants_of(const measure::VolumeWork& work);
 
-// Returns the build of a raycaster for this work. `shader` is "raycast.comp" or
-// "raycast_fragment.frag". `in_parts` selects the build that draws a volume in parts with the
-// technique raycast. Returns an empty string if no build can trace the work.
+// Returns the SPIR-V of a raycaster that was compiled for this kind of work and pass. `shader` is
+// "raycast.comp" or "raycast_fragment.frag". `in_parts` selects SPIR-V that draws a volume in
+// parts, which only the technique raycast supports. Returns an empty string if no SPIR-V can trace
+// the work.
 [[nodiscard]] std::string_view raycast_spirv(std::string_view shader,
                                              const measure::VolumeWork& work, Pass pass,
                                              bool in_parts = false);

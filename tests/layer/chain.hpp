@@ -32,8 +32,8 @@ template <class Command>
   return reinterpret_cast<Command>(next_of(handle, command));
 }
 
-// Prints a line to stderr about a use that a device with this limit would reject. From then on,
-// every submission fails.
+// Prints a line to stderr which states that the application did something that a device with the
+// lowered limit would reject. From then on, every submission fails.
 VkResult refuse(std::string_view what);
 
 [[nodiscard]] std::span<const Hook> description_hooks();

@@ -239,8 +239,8 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
               HasSubstr("is outside the folder"));
   EXPECT_THAT(changed([](core::Json& json) { json["configurations"] = 3; }),
               HasSubstr("gives the number of configurations as 3, but counters.json contains 4"));
-  // These entries cannot be checked against another file, so the history contains the manifest's
-  // hash.
+  // These entries of the manifest cannot be checked against another file. Therefore the history of
+  // accepted baselines contains the hash of the manifest.
   for (const char* name : {"plan_hash", "checks"}) {
     EXPECT_THAT(changed([&](core::Json& json) { json[name] = "memory"; }),
                 HasSubstr("is not the most recently accepted manifest"))

@@ -21,8 +21,9 @@ namespace {
 using Texel = std::array<float, 4>;
 using Colour = std::array<float, 3>;
 
-// A limit on the optical depth of a piece that disables splitting: all whole cells are processed at
-// once, as in an earlier version of the shader.
+// The shader splits long steps into pieces of limited optical depth. This limit is so large that no
+// step is split: all whole cells between table entries are processed at once, as in an earlier
+// version of the shader.
 constexpr float any_depth = 1e30F;
 
 class Step {

@@ -41,8 +41,9 @@ TEST(TileRounds, ContainEveryCellOnceWithinTheirLimits) {
   }
 }
 
-// Each of the 2,048 spheres around the eye covers every tile, and an invocation loops over the
-// tiles of 32 spheres.
+// Each of the 2,048 spheres around the eye covers every tile. An invocation of the pass that sorts
+// spheres into tiles processes 32 spheres with one loop iteration per tile, so it needs 32 times as
+// many iterations as the image has tiles.
 TEST(TileRounds, SpheresAroundTheEyeMakeAsManyPassesAsTheyHaveTiles) {
   scene::ParticleScene scene = uniform(2048, 1000);
   scene.camera.eye = {0.5, 0.5, 0.5};
