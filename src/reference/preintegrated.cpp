@@ -28,8 +28,9 @@ bool Preintegration::transparent(const Bounded& front, const Bounded& back) cons
       {.centre = a.centre, .lo = std::min(a.lo, b.lo), .hi = std::max(a.hi, b.hi)});
 }
 
-// Beyond the table, the transfer function is constant, so the path is cut at the ends of the table
-// in the same way as at its entries.
+// Cuts a step, along which the value changes linearly, at the entries of the table. Beyond the
+// table, the transfer function is constant, so the step is cut at the ends of the table in the same
+// way.
 std::vector<PathPiece> Preintegration::cut(double from, double to, double length) const {
   std::vector<PathPiece> pieces;
   const double direction = to < from ? -1.0 : 1.0;

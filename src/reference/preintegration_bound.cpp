@@ -13,8 +13,9 @@ namespace {
 
 constexpr double last_bounded_entry = 255;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// The largest optical depth of a chunk of several cells. It determines how much light is lost by
-// truncating the series after three coefficients.
+// The largest optical depth of a chunk, which consists of several cells (intervals between entries)
+// that a device integrates at once. It determines how much light is lost because the series for the
+// colour of a chunk is truncated after three coefficients.
 constexpr double deepest_chunk = 0.5 * std::numbers::ln2;
 constexpr double cut_off_of_chunk = 7.8e-5;
 constexpr double least_left = 0x1.0p-20;
@@ -76,8 +77,9 @@ PreintegrationBound::Reach PreintegrationBound::reach(double lo, double hi) cons
   return reach;
 }
 
-// Returns the steepest slopes in the piece's cell and its two neighbours. They are sufficient if
-// the error is below one cell.
+// Returns the steepest slopes of the transfer function in the piece's cell (the interval between
+// two entries) and in its two neighbours. These three cells are sufficient if the error of a
+// position in the table is below one cell.
 PreintegrationBound::Rgba PreintegrationBound::slopes_near(const PathPiece& piece) const {
   if (path_.error >= 1.0) return around_.slope;
   Rgba slopes{};
@@ -90,8 +92,9 @@ PreintegrationBound::Rgba PreintegrationBound::slopes_near(const PathPiece& piec
   return slopes;
 }
 
-// Returns the largest relative change of the optical depth on the piece. As a function of alpha,
-// this change first falls and then rises, so it is largest at one of the ends.
+// Returns the largest relative change of the optical depth on the piece that the errors of opacity
+// and length may cause. As a function of alpha, this change first falls and then rises, so it is
+// largest at one of the ends of the piece.
 double PreintegrationBound::relative_change(const PathPiece& piece, double alpha_error) const {
   double change = 0.0;
   for (const double alpha : {piece.a[3], piece.b[3]}) {
@@ -165,8 +168,8 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   tails_ += piece.length * tail;
   front_before_ = front_;
   if (widening_ == 0.0) return;
-  // On a device, the first piece may be shorter by e. The lower bound of its depth then uses its
-  // smallest extinction.
+  // On a device, the first piece may be shorter, because the position of its front has an error.
+  // The lower bound of its depth then uses its smallest extinction.
   const double thinnest =
       extinction_of(std::max(std::min(piece.a[3], piece.b[3]) - alpha_error, 0.0));
   const double sure =
@@ -176,8 +179,9 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   front_ *= std::exp(-sure / widening_);
 }
 
-// Adds the error of one cell, or of a part of a cell at an end of the path, if its depth exceeds
-// the limit for chunks.
+// Adds the error of one cell (the interval between two entries), or of a part of a cell at an end
+// of the step, if its depth exceeds the limit for chunks, which are several cells processed at
+// once.
 void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
   const double share = piece.length + 2.0 * path_.error / span_;
   const double extinction = mean_extinction(std::min(piece.a[3] + alpha_error_, 1.0),
@@ -191,7 +195,7 @@ void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
   }
 }
 
-// Adds the error of one end of the path, where extinction is assumed to be linear. On a device, the
+// Adds the error of one end of the step, where extinction is assumed to be linear. On a device, the
 // end may be in the neighbouring cell. In that case, the part at the end is assumed to be as long
 // as a whole cell, and to begin in front of the previous piece.
 void PreintegrationBound::add_end(const PathPiece& piece, double position, const Reach& end) {
@@ -208,9 +212,10 @@ void PreintegrationBound::add_end(const PathPiece& piece, double position, const
   }
 }
 
-// Returns whether the parts of cells that only a device enters, at either end of the path, may be
-// deeper than a chunk. If so, each of these parts adds an error as large as the range of its
-// colour.
+// Because of the errors of values, a device may enter cells (intervals between entries) at either
+// end of the step that the exact step does not enter. Returns whether these parts of cells may have
+// a larger optical depth than a chunk, the largest group of cells processed at once. If so, each of
+// these parts adds an error as large as the range of its colour.
 bool PreintegrationBound::deep_slivers() const {
   const double share = widening_ * 2.0 * path_.error / std::max(span_, 1e-300);
   const double extinction = extinction_of(around_.most_alpha + model_.table_error);

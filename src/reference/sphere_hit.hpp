@@ -50,7 +50,7 @@ struct Wobble {
   double skin = 0;
 };
 
-// The possible results for one sphere, over all rays that a wobble allows.
+// The possible results for one sphere, over all rays that the errors of a device (Wobble) allow.
 struct Reach {
   // Whether some ray may hit the sphere. If not, the members below are meaningless.
   bool possible = false;

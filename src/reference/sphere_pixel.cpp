@@ -157,7 +157,8 @@ void SphereTracer::meet(const View& view, std::uint32_t place) {
 }
 
 bool SphereTracer::is_rival(const Candidate& candidate) const {
-  // A candidate may be behind a surface that was found later.
+  // A sphere that was a candidate when it was found is hidden if a surface in front of it was found
+  // later.
   if (candidate.nearest > covered_) return false;
   if (distance_ == unreached) return true;
   const SphereTree::Sphere& shown = picture_.tree.sphere(shown_);
