@@ -39,8 +39,9 @@ struct Run {
   std::uint32_t begin = 0;  // index of its first particle in the arrangement
 };
 
-// Divides the particles into runs. Every pass over the particles recomputes the run of each
-// particle, because storing the runs would take as much memory as the order itself.
+// Divides the particles into runs, which become the cells of the arrangement. Every pass over the
+// particles recomputes to which run each particle belongs, because storing the index of the run for
+// each particle would take as much memory as the drawing order itself.
 class Runs {
  public:
   explicit Runs(const scene::ParticleScene& scene)
@@ -130,9 +131,10 @@ class Runs {
     return glm::distance(eye, glm::clamp(eye, glm::dvec3(run.lo), glm::dvec3(run.hi)));
   }
 
-  // Runs with large spheres stay at the front. All other runs are sorted by the distance of their
-  // part from the eye, and runs of the same part stay in order. Coincident spheres are in the same
-  // part, so the one with the lowest id is drawn first.
+  // Sorts the runs, which are groups of particles. Runs with large spheres stay at the front. Every
+  // other run is in a part of space that may contain several runs. Runs are sorted by the distance
+  // of their part from the eye, and runs of the same part stay in order. Coincident spheres are in
+  // the same part, so the one with the lowest id is drawn first.
   void sort_front_to_back() {
     std::vector<double> distances(runs_.size());
     for (std::size_t part = 0; part < first_run_.size(); ++part) {

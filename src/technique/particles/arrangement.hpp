@@ -31,17 +31,17 @@ enum class Property : std::uint8_t {
   id       // four bytes
 };
 
-// One drawing order for all techniques: the cells are sorted from front to back as seen from the
-// eye, and the particles of each cell by ascending id. The cells are those of a regular grid,
-// subdivided where that saves work (division.hpp).
+// One drawing order for all techniques: the cells (groups of neighbouring particles) are sorted
+// from front to back as seen from the eye, and the particles of each cell by ascending id. The
+// cells are those of a regular grid, subdivided where that saves work (division.hpp).
 //
 // Ties in depth are resolved by this order, either by a depth test that keeps the first of equal
 // depths or by comparing indices. Every device therefore resolves ties in the same way, regardless
 // of culling. Coincident spheres are in one cell, and the one with the lowest id is visible. The
 // order does not depend on the order of the particles in the set.
 //
-// Spheres whose diameter exceeds the edge length of a cell are put into the first cells, so that
-// they do not enlarge the boxes of other cells.
+// Spheres whose diameter exceeds the edge length of a grid cell are put into the first cells, so
+// that they do not enlarge the boxes of other cells.
 //
 // Properties stay in the set and are gathered while they are copied to a device, because a second
 // copy of ten million particles would take too much memory.

@@ -32,7 +32,8 @@ TRI_BINDING(15) uniform usamplerBuffer tree_order_texels;
 #define TRI_BEAM_PIXELS 8
 #define TRI_MOST_STEPS 6800u
 
-// The normals of the planes through the eye that bound the beam. The beam is on the positive side of each plane.
+// The normals of the planes through the eye that bound the beam (the bundle of the rays of 4×2 pixels). The beam is on
+// the positive side of each plane.
 vec3 left_side;
 vec3 right_side;
 vec3 upper_side;
@@ -51,8 +52,9 @@ uint intersections_tested = 0u;
 ivec2 beam_pixel(int k) { return first_pixel + ivec2(k % TRI_BEAM_X, k / TRI_BEAM_X); }
 bool in_picture(ivec2 pixel) { return pixel.x < u.viewport.x && pixel.y < u.viewport.y; }
 
-// Computes the sides of the beam. They lie 1/64 pixel outside its outermost rays, because a silhouette computed in
-// single precision may exceed the exact silhouette, by less than 1/64 pixel. (Sprites have the same margin.)
+// Computes the planes that bound a beam, which is the bundle of the rays of 4×2 pixels. The planes lie 1/64 pixel
+// outside its outermost rays, because a silhouette computed in single precision may exceed the exact silhouette, by
+// less than 1/64 pixel. (Sprites have the same margin.)
 void open_beam(uint beam) {
   uint block = beam / 64u;
   uint n = beam % 64u;

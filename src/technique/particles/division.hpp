@@ -53,9 +53,9 @@ class Division {
   [[nodiscard]] std::size_t parts() const { return nodes_.size(); }
 
  private:
-  // A node is either a part or divided in two by a plane. The position of a particle's centre
-  // relative to the plane determines the side to which the particle belongs. Node 0 is part 0, and
-  // the nodes of the grid's cells come next.
+  // A node is a region of space. It is either a part or divided in two by a plane. The position of
+  // a particle's centre relative to the plane determines the side to which the particle belongs.
+  // Node 0 is part 0, and the nodes of the grid's cells come next.
   struct Node {
     static constexpr std::uint32_t whole = 3;
     std::uint32_t axis = whole;

@@ -13,7 +13,7 @@
 layout(std430) TRI_BINDING(7) buffer Boxes { vec4 boxes[]; };              // lower and upper corner of each node
 layout(std430) TRI_BINDING(8) buffer TreeSpheres { vec4 tree_spheres[]; };  // in world space, in tree order
 layout(std430) TRI_BINDING(9) buffer TreeOrder { uint tree_order[]; };      // the particle index of each tree sphere
-layout(std430) TRI_BINDING(10) buffer Sorted { uint sorted[]; };            // two lists of (position, particle)
+layout(std430) TRI_BINDING(10) buffer Sorted { uint sorted[]; };            // two lists of (curve position, particle) pairs
 layout(std430) TRI_BINDING(12) buffer Scratch { uint scratch[]; };
 
 #define TRI_DIGITS 256u

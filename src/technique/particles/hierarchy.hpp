@@ -53,7 +53,8 @@ class Hierarchy {
   [[nodiscard]] std::size_t box_words() const noexcept;     // two corners of four words per node
   [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in tree order
   [[nodiscard]] std::size_t order_words() const noexcept;   // their particle indices
-  // Two lists of (position on the curve, particle).
+  // Two lists of pairs (position on the Hilbert curve, particle index). Each pass of the radix sort
+  // reads one of the lists and writes the other.
   [[nodiscard]] std::size_t sorted_words() const noexcept;
   // The counts of the radix sort. For each of its runs (see runs()), they contain the number of
   // particles with each of the 256 values of the current digit, followed by one total for each

@@ -19,12 +19,12 @@ ivec2 tile_grid() { return (u.viewport.xy + (TRI_TILE - 1)) / TRI_TILE; }
 int pixel_index(ivec2 pixel) { return pixel.y * u.viewport.x + pixel.x; }
 int tile_index(ivec2 tile) { return tile.y * tile_grid().x + tile.x; }
 
-// Returns the state of a tile: the number of its entries in this round, the index after the last of these entries,
-// the smallest depth key of its pixels (0 while a pixel is empty), and flags.
+// Returns the state of a tile: the number of its entries (the large spheres that reach it) in the current round, the
+// index after the last of these entries, the smallest depth key of its pixels (0 while a pixel is empty), and flags.
 uvec4 tile_state(int index) { return texelFetch(tile_texels, 2 + 2 * index); }
 uint farthest_in(int index) { return tile_state(index).z; }
-#define TRI_USED 1u       // a sphere was drawn into the tile
-#define TRI_TOUCHED 2u    // small spheres were drawn into the tile in this round
+#define TRI_USED 1u       // a sphere may have been drawn into the tile
+#define TRI_TOUCHED 2u    // small spheres may have been drawn into the tile in this round
 #define TRI_HAS_LARGE 4u  // large_pixels contains the results of earlier rounds
 
 // The bits of TRI_SPHERES, which describe the kinds of spheres in the scene (technique::TileRounds).

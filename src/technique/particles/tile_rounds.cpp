@@ -50,8 +50,8 @@ class NeedBound {
     for (std::size_t k = 0; k < cell.count; ++k) {
       const Need need = of(arrangement.sphere(cell.begin + k));
       all.add(need);
-      // The entries of a sphere count twice, because an invocation of tiles_fill may process two
-      // spheres.
+      // The entries of a sphere (one for each tile that it reaches) count twice, because an
+      // invocation of tiles_fill may process two spheres.
       all.passes = std::max(all.passes, 2 * need.entries);
       passes[k % passes.size()] += 1 + need.entries + (need.small ? small_edge * small_edge : 0);
     }

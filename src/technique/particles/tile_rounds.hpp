@@ -57,7 +57,8 @@ inline constexpr std::uint64_t most_large_spheres = 32000;
 // Divides the cells into rounds. Early rounds hide spheres of later rounds, but each round costs a
 // pass over all tiles. A round therefore draws about as many pixels as the image has or, if that is
 // more, half as many as all previous rounds together. A round has at most `most_cells` cells and,
-// unless a single cell has more, at most `most_entries` entries.
+// unless a single cell has more, at most `most_entries` entries, which are the pairs of a tile and
+// a large sphere that reaches this tile.
 [[nodiscard]] TileRounds tile_rounds(const scene::ParticleScene& scene,
                                      const Arrangement& arrangement, std::uint32_t most_cells,
                                      std::uint64_t most_entries);

@@ -34,7 +34,8 @@ struct Tile {
 };
 
 layout(std430) TRI_BINDING(7) writeonly buffer CameraSpheres { vec4 camera_spheres[]; };  // indexed by particle
-// Indices of particles: small spheres of all rounds from the front, large spheres of this round from the back.
+// Indices of the particles that may be visible. Small spheres of all rounds are stored from the front of the buffer on,
+// and large spheres of the current round from its back.
 layout(std430) TRI_BINDING(8) buffer Kept { uint kept[]; };
 layout(std430) TRI_BINDING(9) buffer Tiles {
   uint small_kept;

@@ -4,9 +4,9 @@ layout(local_size_x = 64) in;
 TRI_BINDING(17) uniform samplerBuffer sphere_texels;
 layout(std430) TRI_BINDING(12) readonly buffer CellEnds { uint cell_ends[]; };
 
-// Raises the depth keys of the pixels that the sphere covers. Returns whether the sphere is, or may be, visible at
-// any of these pixels. A single loop visits all pixels of the rectangle, because with nested loops all lanes would
-// wait for the longest row each time.
+// Raises the depth keys of the pixels that the sphere covers; a larger key means a smaller distance. Returns whether
+// the sphere is, or may be, visible at any of these pixels. A single loop visits all pixels of the rectangle, because
+// with nested loops all lanes would wait for the longest row each time.
 bool draw_small(vec4 sphere, ivec4 rectangle, int count) {
   bool seen = false;
   ivec2 pixel = rectangle.xy;

@@ -1,6 +1,6 @@
-// Each invocation processes one cell of the round and writes the index at which the cell's particles end. If the
-// cell is not drawn because it is outside the view (TRI_CULLING ≥ 1) or behind everything drawn so far
-// (TRI_CULLING = 2), the invocation writes the index at which the cell's particles begin.
+// Each invocation processes one cell (a group of neighbouring particles) of the current round, and writes the index at
+// which the cell's particles end. If the cell is not drawn because it is outside the view (TRI_CULLING ≥ 1) or behind
+// everything drawn so far (TRI_CULLING = 2), the invocation writes the index at which the cell's particles begin.
 layout(local_size_x = 64) in;
 layout(std430) TRI_BINDING(12) writeonly buffer CellEnds { uint cell_ends[]; };
 

@@ -26,9 +26,9 @@ uvec4 with_sphere(uvec4 pair, vec4 sphere, uint particle, float right, float upp
                wins_below ? below : pair.z, wins_below ? particle : pair.w);
 }
 
-// Returns the next entry that reaches this quarter, or 0 if there is none. A separate loop is necessary because
-// lanes that run in lockstep can skip work only in a loop. The condition is at the end of the loop, because a
-// condition at the beginning would cost the lanes one more idle iteration.
+// Returns the next entry (large sphere) of the tile that reaches this quarter of it, or 0 if there is none. A separate
+// loop is necessary because lanes that run in lockstep can skip work only in a loop. The condition is at the end of the
+// loop, because a condition at the beginning would cost the lanes one more idle iteration.
 uint next_entry(inout uint at, uint end, uint quarter) {
   uint found = 0u;
   do {

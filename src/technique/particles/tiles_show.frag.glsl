@@ -28,9 +28,9 @@ Shown found(ivec2 pixel) {
   return Shown(keys, texelFetch(camera_texels, int(particle)));
 }
 
-// Tests the tile's entries, which no earlier pass has drawn. The bits for the quarters are ignored, because an
-// entry that does not reach this quarter of the tile covers none of its pixels anyway. The loop's condition is at
-// its end, as in next_entry().
+// Tests the tile's entries (the large spheres that reach it), which no earlier pass has drawn. The bits for the
+// quarters are ignored, because an entry that does not reach this quarter of the tile covers none of its pixels anyway.
+// The loop's condition is at its end, as in next_entry().
 Shown with_entries(Shown shown, ivec2 pixel) {
   vec2 s = pixel_ray(pixel);
   uvec4 state = tile_state(tile_index(pixel / TRI_TILE));
