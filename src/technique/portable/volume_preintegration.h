@@ -43,9 +43,9 @@ TRI_FN float tri_tilt(float a, float b, float mean_log2) {
   return rise / twice_mean;
 }
 
-// Returns w = z/L − 3 for the optical depth 2z > 0 with the given opacity. Therefore L = z/(3 + w) and 1 − 3L/z = w/(3 +
-// w). For small z, this definition would suffer from cancellation, so the continued fraction z²/(5 + z²/(7 + …)) is used;
-// five levels have a relative error below 4e-7 at z = 2.
+// Returns w = z/L − 3 with L = coth z − 1/z, for the optical depth 2z > 0 with the given opacity. Therefore
+// L = z/(3 + w) and 1 − 3L/z = w/(3 + w). For small z, this definition would suffer from cancellation, so the continued
+// fraction z²/(5 + z²/(7 + …)) is used; five levels have a relative error below 4e-7 at z = 2.
 TRI_FN float tri_attenuation(float z, float opacity) {
   float q = z * z;
   float near_zero = q / (5.0f + q / (7.0f + q / (9.0f + q / (11.0f + q / 13.0f))));

@@ -67,8 +67,8 @@ std::optional<std::string> why_whole_only(std::string_view technique,
 
 bool is_read(const Part& part, const scene::VolumeScene& scene, const RaycastOptions& options,
              std::span<const std::int32_t> map) {
-  // Without leaps, a ray that steps from brick to brick may take one last sample beyond its exit
-  // from a visible brick, so any part may be read.
+  // Without the leaps of Skip::distance, a ray that steps from brick to brick may take one last
+  // sample beyond its exit from a visible brick, so any part may be read.
   if (options.skip != Skip::distance) return true;
   const BrickLayout layout = brick_layout(scene, options.skip, options.adapt);
   const auto counts = brick_counts(scene.grid->size, layout);

@@ -117,8 +117,10 @@ class CellIntegral {
   Moments sum_;
 };
 
-// Writes the three texels that describe a path in the table (see preintegration.hpp), computed from
-// its moments. If the path has no optical depth, its colour is `colour`.
+// Writes the three texels that describe a path in the table (preintegration.hpp). A path is a part
+// of a ray along which the value changes linearly from one entry of the transfer function to
+// another. The texels are computed from the path's optical depth and from the moments of its
+// colours. If the path has no optical depth, its colour is `colour`.
 void write(const Moments& m, const Entry& colour, std::array<float, 4>* texels) {
   texels[0] = {static_cast<float>(m.depth * std::numbers::log2e), colour[0], colour[1], colour[2]};
   texels[1] = texels[2] = {0, 0, 0, 0};

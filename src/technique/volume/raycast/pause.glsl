@@ -3,7 +3,7 @@
 
 struct Pause {
   real4 light;   // premultiplied colour, transmittance
-  ivec4 where;   // the brick or the cell where the ray continues; w: 1 if the current run is to be merged
+  ivec4 where;   // the brick or the cell where the ray continues; w: 1 if the run is to be taken as one sample
   ivec4 run;     // the next sample, the end of its run, and 1 if the ray has been terminated early
   // Only for quadrature=cells: the positions on the ray, in steps, at which it continues, at which the visible bricks
   // end, and at which the ray ends.

@@ -104,8 +104,8 @@ void advance(inout March m, inout Cut cut, Grid grid, Ray ray, real step_voxels,
 }
 
 #if TRI_PACKED
-// Takes the next two samples, or one if only one is left in the run. Both loads are issued before the first result is
-// used.
+// Takes the next two samples, or one if only one is left in the current run of visible samples. Both loads are issued
+// before the first result is used.
 void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   real3 p = ray.p0 + (real(m.i) + 0.5) * ray.g;
   real3 q = ray.p0 + (real(m.i + 1) + 0.5) * ray.g;
@@ -130,8 +130,9 @@ void advance_two(inout March m, Grid grid, Ray ray, real step_voxels, real enoug
 }
 #endif
 
-// Takes all samples of the run as a single sample in the middle of their chord (technique::brick_kinds), but never
-// before the first sample of the run, which may be the ray's last and partial sample.
+// Takes all samples of the run (consecutive samples in visible bricks) as a single sample in the middle of their chord
+// (technique::brick_kinds), but never before the first sample of the run, which may be the ray's last and partial
+// sample.
 void advance_merged(inout March m, Grid grid, Ray ray, real step_voxels, real enough) {
   real begin = real(m.i);
   real end = min(real(m.stop), ray.steps);

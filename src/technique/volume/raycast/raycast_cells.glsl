@@ -31,9 +31,10 @@ vec3 entries(Way way, ivec3 cell) { return crossings(way, cell + 1 - way.forward
 vec3 exits(Way way, ivec3 cell) { return crossings(way, cell + way.forward); }
 float least(vec3 v) { return min(v.x, min(v.y, v.z)); }
 
-// Returns the cell that the ray enters at the nearest of the planes, which it crosses at the times `at`. Along the other
-// axes, the index is that of the cell that contains the ray at this time. This index is determined from the same times that
-// a walk from cell to cell would compare.
+// Returns the cell that the ray enters at the nearest of three planes, one for each axis. The ray crosses the planes at
+// the times `at`, which are positions on the ray. Along the other axes, the index is that of the cell that contains the
+// ray at the time of the nearest plane. This index is determined from the same times that a walk from cell to cell
+// would compare.
 ivec3 cell_behind(Way way, ivec3 planes, vec3 at) {
   float t = least(at);
   ivec3 direction = 2 * way.forward - 1;
@@ -169,7 +170,7 @@ void add_part(inout Light light, Grid grid, Ray ray, vec4 c, float s, float next
   }
 }
 
-// Adds the cell that the ray crosses from time `begin` to time `end`.
+// Adds the light of the cell that the ray crosses from time `begin` to time `end` (positions on the ray, in steps).
 void add_cell(inout Light light, Grid grid, Ray ray, Way way, ivec3 cell, float begin, float end,
               float step_voxels) {
   vec4 c = cubic_of_cell(grid, cell, way.p0 + begin * way.g - vec3(cell), (end - begin) * way.g);
@@ -227,7 +228,7 @@ Around look_around(Way way, Grid grid, ivec3 cell) {
 
 #include "volume/raycast/pause.glsl"
 
-// Restores the state of the ray, which continues in `cell`.
+// Restores the state that pause_here() stored in the previous pass over the volume. The ray continues in `cell`.
 void resume(inout Light light, inout ivec3 cell, inout vec3 times, int place) {
   Pause pause = pauses[place];
   light = Light(pause.light.xyz, pause.light.w);

@@ -37,7 +37,8 @@ void pause_here(March m, Walk walk, bool merged, bool walks, bool dark, int plac
                         ivec4(m.i, m.stop, dark ? 1 : 0, 0), vec4(0.0), counts_so_far());
 }
 
-// Takes the next sample or step of the run, or the whole run if it is to be merged.
+// Takes the next sample or step of the run (consecutive samples in visible bricks), or the whole run as one sample if
+// `merged` is true.
 void take_next(inout March m, inout Cut cut, inout bool fresh, bool merged, int last, Grid grid, Ray ray,
                real step_voxels, real enough) {
   if (TRI_ADAPT == 1 && merged) {
