@@ -5,7 +5,8 @@
 
 namespace triptych::opencl_backend {
 
-// OpenCL 1.2 and later, on every platform and device that the ICD loader lists.
+// Creates the backend for OpenCL 1.2 and later. It uses every platform and device that the ICD
+// loader lists.
 [[nodiscard]] std::unique_ptr<measure::Backend> make_backend();
 
 }  // namespace triptych::opencl_backend

@@ -187,7 +187,8 @@ std::size_t addressed(int at, std::string_view kernel) {
   return static_cast<std::size_t>(within < size ? within : period - 1 - within);
 }
 
-// The border of a single-channel image is 0.
+// Reads texels at coordinates inside and outside of an image, and compares them with the texels
+// that the addressing mode should select. A read of the border of a single-channel image returns 0.
 ProbedFeature probe_addressing(const Bench& bench, const char* kernel) {
   constexpr std::size_t side = 4 * image_edge;
   constexpr std::size_t count = side * side;

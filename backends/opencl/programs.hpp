@@ -57,9 +57,9 @@ class Programs {
   // Returns the content hash of the source and the options.
   [[nodiscard]] static std::string hash(const std::string& source, const std::string& options);
 
-  // Starts a capture, which records each requested program once, except counting builds
-  // (TRI_COUNT=1).
-  // end_capture() returns the recorded programs in the order in which they were requested.
+  // Starts a capture, which records each requested program once, except programs that count their
+  // work (TRI_COUNT=1). end_capture() returns the recorded programs in the order in which they were
+  // requested.
   void start_capture();
   [[nodiscard]] std::vector<CapturedProgram> end_capture();
 

@@ -5,9 +5,9 @@
 
 namespace triptych::vulkan_backend {
 
-// Vulkan 1.1 and later, through a loader that is found at run time. If the environment variable
-// TRIPTYCH_VULKAN_VALIDATION is 1, every message from the validation layer becomes an ApiError for
-// the call that caused it. The layer then also checks synchronization.
+// Creates the backend for Vulkan 1.1 and later. It uses a loader that is found at run time. If the
+// environment variable TRIPTYCH_VULKAN_VALIDATION is 1, every message from the validation layer
+// becomes an ApiError for the call that caused it. The layer then also checks synchronization.
 [[nodiscard]] std::unique_ptr<measure::Backend> make_backend();
 
 }  // namespace triptych::vulkan_backend

@@ -41,8 +41,9 @@ bool is_disassembly(const vk::PipelineExecutableInternalRepresentationKHR& each)
                                     name.find("SASS") != std::string_view::npos);
 }
 
-// Returns the disassembly of an executable. The Vulkan function must be called twice: for the
-// sizes, and then for the contents. Vulkan-Hpp makes only the first call.
+// Returns the disassembly of a pipeline executable, which is the code that the driver generated for
+// one or more stages. The Vulkan function must be called twice: for the sizes, and then for the
+// contents. Vulkan-Hpp makes only the first call.
 std::string assembly_of(const Gpu& gpu, const vk::PipelineExecutableInfoKHR& which) {
   auto representations = gpu.device.getPipelineExecutableInternalRepresentationsKHR(which);
   std::vector<std::string> texts(representations.size());

@@ -118,7 +118,7 @@ TEST(OpenClParticles, CountingAndExtraWorkLeaveTheImageUnchanged) {
 }
 
 // Returns a dense cluster in the middle, and a second one at 93 to 99 % of the distance to the edge
-// of the screen. Each has its own cells.
+// of the screen. No cell (a range of neighbouring particles) contains particles of both clusters.
 scene::ParticleScene at_the_edge() {
   Spheres spheres;
   for (int i = 0; i < 2000; ++i) {

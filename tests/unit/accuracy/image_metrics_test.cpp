@@ -73,7 +73,7 @@ TEST(ImageMetrics, SizesMustMatch) {
 }
 
 // Returns an image of four pixels: particles 7 and 8 at depths 2 and 3, then an empty pixel, then
-// an uncertain one.
+// particle 9, for which particle_bound() states that the reference is uncertain.
 core::Image particles() {
   core::Image image = filled(4, 1, 0.5F);
   constexpr float none = std::numeric_limits<float>::infinity();

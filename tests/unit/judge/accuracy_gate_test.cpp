@@ -1,5 +1,5 @@
-// Tests the comparison of images with limit images: the components of an error, and stored errors
-// as baselines.
+// Tests the comparison of images with limit images, to which images converge for small steps: the
+// components of an error, and stored errors as baselines.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -125,7 +125,8 @@ TEST_F(PlanTest, AlsoAddsCombinationsWithoutDuplicates) {
   EXPECT_THAT(plan.varied, ElementsAre("data", "step", "skip", "ert"));
 }
 
-// Values that occur in the plan select its configurations. Other values create new configurations.
+// Overrides with values that occur in the plan select some of the plan's configurations. Overrides
+// with other values create new configurations.
 TEST_F(PlanTest, OverridesSelectLevelsOfThePlan) {
   const std::string yaml =
       "suite: fake\n"

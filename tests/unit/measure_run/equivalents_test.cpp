@@ -86,8 +86,7 @@ class RunTwins : public RunTest {
                  {"camera", {"random:7"}},
                  {"skip", skip}});
   }
-  // Returns the records by configuration key. The record with bricks comes first, because keys omit
-  // default levels.
+  // Returns the records by configuration key. Keys omit default levels, such as skip=bricks.
   [[nodiscard]] std::map<std::string, record::Record> by_key(const RunResult& result) const {
     std::map<std::string, record::Record> all;
     for (const record::Record& record : records(result.run)) all[record.configuration] = record;
