@@ -106,7 +106,7 @@ class Runs {
     runs_.resize(runs);
   }
 
-  // Computes the counts and boxes of the runs.
+  // Computes the number of particles and the box of each run.
   void measure() {
     for_each([&](std::uint32_t place, Run& run) {
       const auto& sphere = set_.spheres[place];

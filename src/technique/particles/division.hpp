@@ -72,7 +72,8 @@ class Division {
 
   const scene::ParticleScene& scene_;
   Grid grid_;
-  double price_;  // the minimum saving for one more part, in particles
+  // A part is divided only if this saves at least `price_` times the surface area of its box.
+  double price_;
   std::vector<Node> nodes_;
 };
 

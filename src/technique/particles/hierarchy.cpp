@@ -7,9 +7,9 @@ namespace triptych::technique {
 namespace {
 
 constexpr std::uint32_t fewest_of_leaf = 4;
-constexpr std::uint32_t digits = 256;  // TRI_DIGITS
+constexpr std::uint32_t digits = 256;  // TRI_DIGITS in hierarchy.glsl
 constexpr float grid_cells = 1023;
-constexpr std::uint32_t group_columns = 65535;  // TRI_GROUP_COLUMNS
+constexpr std::uint32_t group_columns = 65535;  // TRI_GROUP_COLUMNS in hierarchy.glsl
 
 struct Cube {
   std::array<float, 3> low{};

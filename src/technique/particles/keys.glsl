@@ -14,7 +14,7 @@ uint particle_key(uint particle) { return TRI_FAULT == 2 ? ~particle & 0x7FFFFFF
 uint particle_of_key(uint key) { return TRI_FAULT == 2 ? ~key & 0x7FFFFFFFu : key; }
 
 // Returns the depth key of the sphere on the ray through this point of the image plane, or 0 if the ray misses
-// it.
+// the sphere. Nearer surfaces have larger depth keys.
 uint sphere_key(vec4 c, vec2 s) {
   float discriminant = tri_sphere_discriminant(c.x, c.y, c.z, c.w, s.x, s.y);
   float distance = tri_sphere_distance(c.x, c.y, c.z, s.x, s.y, max(discriminant, 0.0));

@@ -91,7 +91,7 @@ Frame sprite_frame(vec4 sphere) {
   return Frame(v * plane, radius * right, radius * cross(right, v), tri_surrounds(d2, sphere.w));
 }
 
-// Returns the corner `side` (±1, ±1) of the square.
+// Returns the corner `side` (±1, ±1) of a square sprite.
 Corner quad_corner(Frame frame, vec2 side) {
   if (frame.everywhere == 1) return corner_on_image(-u.plane.xy, u.plane.xy, side, u.eye.w);
   return corner_at(frame.centre + side.x * frame.right + side.y * frame.up);

@@ -13,9 +13,9 @@
 
 namespace triptych::technique {
 
-inline constexpr int tile_edge = 16;  // TRI_TILE
-// TRI_SMALL_EDGE. A sphere is small if both sides of its pixel rectangle have at most this length
-// in pixels; otherwise it is large.
+inline constexpr int tile_edge = 16;  // in pixels; TRI_TILE in tile_grid.glsl
+// TRI_SMALL_EDGE in tile_grid.glsl. A sphere is small if both sides of its pixel rectangle have at
+// most this length in pixels; otherwise it is large.
 inline constexpr int small_edge = 6;
 
 // A range of cells whose spheres are binned together before the tiles are resolved.

@@ -25,7 +25,7 @@
 
 struct Tile {
   uint entries;   // see tile_state()
-  uint next;      // position of the next entry; after tiles_fill the end of the entries
+  uint next;      // index at which the next entry is written; after tiles_fill, the end of the tile's entries
   uint farthest;
   uint flags;
   uint coming;    // value of `farthest` after this round
@@ -42,7 +42,7 @@ layout(std430) TRI_BINDING(9) buffer Tiles {
   uint large_kept;
   uint placed_entries;
   uint tiles_listed;
-  uint groups[4];  // for tiles_resolve, in the layout of an indirect dispatch
+  uint groups[4];  // number of work groups of tiles_resolve, in the layout of an indirect dispatch
   Tile tiles[];
 };
 layout(std430) TRI_BINDING(10) buffer Entries { uint entries[]; };
@@ -76,7 +76,7 @@ ivec4 pixel_rectangle(vec4 sphere) {
 // Returns a depth key that no point of the sphere's surface exceeds. Depths computed on a device have an error of a
 // few 2⁻²⁴ of the distance to the sphere's farthest part (tri_sphere_distance), so 2⁻¹⁶ is more than enough.
 uint front_key(vec4 sphere) {
-  if (TRI_FAULT == 3) return TRI_LARGEST_KEY;  // nothing is skipped
+  if (TRI_FAULT == 3) return TRI_LARGEST_KEY;  // with this fault, no sphere is skipped
   TRI_PRECISE float rounding = 1.5259e-5 * (abs(sphere.x) + abs(sphere.y) + abs(sphere.z) + sphere.w);
   TRI_PRECISE float front = sphere.z + (TRI_FAULT == 4 ? sphere.w : -sphere.w) - rounding;
   return front > 0.0 ? depth_key(tri_depth(u.eye.w, front)) : TRI_LARGEST_KEY;

@@ -25,7 +25,7 @@ struct Moments {
   std::array<double, 3> c1{};
   std::array<double, 3> c2{};
 
-  // Appends the moments of the path that follows this one.
+  // Extends this path by the path that follows it, whose depth and moments are `next`.
   void append(const Moments& next) {
     for (std::size_t i = 0; i < 3; ++i) {
       c2[i] += next.c2[i] + depth * (2 * next.c1[i] + depth * next.c0[i]);

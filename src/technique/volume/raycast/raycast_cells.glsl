@@ -68,8 +68,8 @@ vec4 cubic_of_cell(Grid grid, ivec3 cell, vec3 a, vec3 b) {
   vec4 v1 = vec4(voxel(grid, ivec3(hi.x, lo.y, lo.z)), voxel(grid, ivec3(hi.x, hi.y, lo.z)),
                  voxel(grid, ivec3(hi.x, lo.y, hi.z)), voxel(grid, hi));
 #endif
-  vec4 x0 = v0 + a.x * (v1 - v0);  // along x: constant terms for the four edges
-  vec4 x1 = b.x * (v1 - v0);       // along x: terms that are linear in s
+  vec4 x0 = v0 + a.x * (v1 - v0);  // interpolated along x, for four edges: the terms that are constant in s
+  vec4 x1 = b.x * (v1 - v0);       // the terms that are linear in s
   vec2 rise0 = x0.yw - x0.xz;
   vec2 rise1 = x1.yw - x1.xz;
   vec2 y0 = x0.xz + a.y * rise0;
