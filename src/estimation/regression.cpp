@@ -292,7 +292,7 @@ double robust_variance(Points residuals, double scale, std::size_t fitted) {
     const double rest = 1 - u * u;
     const double psi = residual / scale * rest * rest;
     squares += psi * psi;
-    slopes += rest * (1 - 5 * u * u);  // ψ′
+    slopes += rest * (1 - 5 * u * u);  // ψ′, the derivative of ψ (regression.hpp)
   }
   const auto n = static_cast<double>(residuals.size());
   const double mean_slope = slopes / n;

@@ -107,7 +107,8 @@ double lit_cosine(double tau, double phase, double rate, double length) {
 
 double v9_lit_wave(double tau, int power, double phase, double rate, double length) {
   if (power == 1) return lit_cosine(tau, phase - pi / 2, rate, length);
-  // sinⁿx = 2⁻ⁿ·[C(n, n/2) + 2·Σ (−1)ʲ·C(n, n/2 − j)·cos 2jx], j = 1 … n/2.
+  // For even n, sinⁿx = 2⁻ⁿ·[C(n, n/2) + 2·Σ (−1)ʲ·C(n, n/2 − j)·cos 2jx] with j = 1 … n/2, where
+  // C are the binomial coefficients. Each cosine is integrated separately.
   double binomial = 1.0;  // C(n, k), with n = power
   double sum = 0.0;
   for (int k = 0; k <= power / 2; ++k) {

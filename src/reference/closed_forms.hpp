@@ -16,15 +16,17 @@ struct Radiance {
 // Composites `front` over `behind`.
 [[nodiscard]] Radiance over(const Radiance& front, const Radiance& behind);
 
-// V1: constant τ and c over a length ℓ. A = 1 − e^(−τℓ), I = c·A.
+// V1: constant τ and c over a length ℓ. The opacity is A = 1 − e^(−τℓ), and the premultiplied
+// colour is I = c·A.
 [[nodiscard]] Radiance v1_constant(double tau, double colour, double length);
 
-// V2: τ = k·t and c = t for 0 ≤ t ≤ 1, k ≥ 0. I = −e^(−k/2) + √(π/2k)·erf √(k/2), A = 1 − e^(−k/2).
-// This follows by integration by parts with the transmittance e^(−kt²/2).
+// V2: τ = k·t and c = t for 0 ≤ t ≤ 1, k ≥ 0. The premultiplied colour is
+// I = −e^(−k/2) + √(π/2k)·erf √(k/2), and the opacity is A = 1 − e^(−k/2). This follows by
+// integration by parts with the transmittance e^(−kt²/2).
 [[nodiscard]] Radiance v2_ramp(double k);
 
 // V3: τ = a + b·t and c = c₀ + c₁·t for 0 ≤ t ≤ length, with τ ≥ 0 everywhere. Integration by parts
-// gives
+// gives the premultiplied colour
 //   I = [−(c₀ + c₁t)·E]₀ˡ + c₁·∫E dt,   E = exp(−at − bt²/2).
 struct LinearSegment {
   double tau0 = 0;     // a

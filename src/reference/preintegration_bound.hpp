@@ -123,16 +123,18 @@ class PreintegrationBound {
   double widening_;
   Reach around_;
   double alpha_error_;
-  double least_ = 0;         // smallest depth so far
-  double most_ = 0;          // largest depth so far
-  double depth_ = 0;         // exact depth so far
+  double least_ = 0;         // smallest optical depth on a device of the pieces so far
+  double most_ = 0;          // largest optical depth on a device of the pieces so far
+  double depth_ = 0;         // exact optical depth of the pieces so far
   double tails_ = 0;         // truncation errors of the series, per voxel
   double front_ = 1;         // largest share of the light that is left behind the pieces so far
   double front_before_ = 1;  // front_ before the most recent piece
   std::size_t added_ = 0;
-  double weights_ = 0;  // ∫T'δ
-  Rgba values_{};       // ∫T'τ' times the errors of the values
-  Rgba lowest_{};       // lowest colours along the path
+  // The parts of the error that the derivation above calls "weights", which is ∫T'δ, and "values",
+  // which is ∫T'τ' times the errors of the colours.
+  double weights_ = 0;
+  Rgba values_{};
+  Rgba lowest_{};  // lowest colours along the path
   Rgba highest_{};
   Rgba deep_cells_{};
   Rgba ends_{};

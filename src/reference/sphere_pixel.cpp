@@ -173,9 +173,9 @@ std::array<double, 4> SphereTracer::shaded(std::uint32_t place, double half) con
   return {colour[0] * light, colour[1] * light, colour[2] * light, 1.0};
 }
 
-// A device's distance t' and half chord h' are within the intervals that Reach contains. Z is
-// t·cos α, where α is the angle between the ray and the view axis. A device's ray is rotated by φ,
-// which changes α, too:
+// A prime marks a quantity of a device. The distance t' along the ray and half the chord h' are
+// within the intervals that Reach contains. The depth Z is t·cos α, where α is the angle between
+// the ray and the view axis. A device's ray is rotated by φ, which changes α, too:
 //   |cos α' − cos α| = 2·sin(φ/2)·|sin(α ± φ/2)| ≤ chord·(sin α + chord/2).
 // The colour is linear in h.
 void SphereTracer::bound_shown(const View& view, SpherePixel& pixel) const {

@@ -42,7 +42,7 @@ struct Truth {
   std::uint64_t samples = 0;
 
   [[nodiscard]] core::Image image() const;        // rounded to float
-  [[nodiscard]] core::Image bound_image() const;  // bound in all four channels, rounded up
+  [[nodiscard]] core::Image bound_image() const;  // each pixel's bound, in all channels, rounded up
 };
 
 // Renders the scene. The work, which is about eight voxel fetches per sample, is distributed over

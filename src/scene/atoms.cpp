@@ -86,7 +86,7 @@ std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader
   return sorted;
 }
 
-// Returns the number of atoms of each kind, sorted by rank.
+// Returns the number of atoms of each kind (element or numbered type), in the order of ranks_of().
 std::vector<ReadFacts::Kind> counted_kinds(const Atoms& atoms) {
   const std::vector<std::size_t> ranks = ranks_of(atoms);
   std::vector<ReadFacts::Kind> kinds(ranks.size());
