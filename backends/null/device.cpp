@@ -177,8 +177,8 @@ class NullDevice final : public measure::Device {
   }
 
   measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
-    // As with real backends, the default sampler depends on whether a sample needs only one filtered
-    // value, or also the voxels around it.
+    // As with real backends, the default sampler depends on whether a sample needs only one
+    // filtered value, or also the voxels around it.
     return {.voxel = volume.native,
             .sampler =
                 volume.filter_suffices ? technique::Sampler::manual : technique::Sampler::packed};
