@@ -81,7 +81,7 @@ class Comparer {
         store_(store.empty() ? (folder_.emplace().path() / "compared.sqlite").string() : store,
                record::Store::Mode::append),
         truths_(registry.find_suite(), store_) {
-    store_.require_whole();  // reference images are read from the store
+    store_.require_whole();  // a damaged store could contain wrong reference images
   }
 
   [[nodiscard]] Told compare(const Comparing& comparing, const std::string& typed,

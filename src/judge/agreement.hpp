@@ -1,5 +1,5 @@
 #pragma once
-// How much two devices may differ, for the gate and for comparisons.
+// The largest differences that are allowed between two devices, for the gate and for comparisons.
 
 #include <array>
 #include <map>

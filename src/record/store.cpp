@@ -69,7 +69,7 @@ const std::filesystem::path& Store::file() const {
   return state_->file;
 }
 
-// This check is necessary because SQLite works around most damage without reporting it. quick_check
+// Checks the whole file, because SQLite works around most damage without reporting it. quick_check
 // reads every page, which takes 0.2 s for a store of 50 MB, but it does not compare indexes with
 // their tables.
 void Store::require_whole() const {

@@ -25,8 +25,9 @@ LiveOptions live_options(const measure::ViewRequest& request) {
           .limit = std::chrono::seconds(request.limit_s)};
 }
 
-// Returns the free view for a camera. Cameras such as "own" can be resolved only by the worker; for
-// these, returns the free view for the default camera `standard`.
+// Returns the free view (azimuth, elevation and distance) that is nearest to a camera. Cameras such
+// as "own" can be resolved only by the worker; for these, returns the free view for the default
+// camera `standard`.
 scene::FreeView view_of(const std::string& camera, const std::string& standard) {
   try {
     return scene::free_view_near(camera);

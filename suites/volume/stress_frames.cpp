@@ -1,4 +1,4 @@
-// Stress cases 51 to 54, which test properties of the frame.
+// Stress cases 51 to 54 of the catalogue in docs/accuracy.md, which test properties of the frame.
 
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,5 @@
-// Stress cases 1 to 7 and 14, which test positions of the eye and directions of rays.
+// Stress cases 1 to 7 and 14 of the catalogue in docs/accuracy.md, which test positions of the eye
+// and directions of rays.
 
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,5 @@
-// Stress cases 8 to 13, which test the size and the spacing of volumes.
+// Stress cases 8 to 13 of the catalogue in docs/accuracy.md, which test the size and the spacing of
+// volumes.
 
 #include <cmath>
 #include <glm/geometric.hpp>

@@ -1,4 +1,5 @@
-// Stress cases 20 to 30, which test transfer functions and steps.
+// Stress cases 20 to 30 of the catalogue in docs/accuracy.md, which test transfer functions and
+// steps.
 
 #include <fmt/format.h>
 

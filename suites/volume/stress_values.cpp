@@ -1,4 +1,5 @@
-// Stress cases 15 to 19, 31, 32 and 56, which test the contents of voxels.
+// Stress cases 15 to 19, 31, 32 and 56 of the catalogue in docs/accuracy.md, which test the
+// contents of voxels.
 
 #include <cmath>
 #include <cstdint>

@@ -32,7 +32,7 @@ void flush(const fs::path& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   const int failed = fd < 0 || ::fsync(fd) != 0 ? errno : 0;
   if (fd >= 0) ::close(fd);
-  // Some file systems cannot flush a folder.
+  // The error EINVAL is ignored, because some file systems cannot flush a folder.
   if (failed != 0 && failed != EINVAL) {
     throw core::IoError(
         fmt::format("{}: {}", path.string(), std::generic_category().message(failed)));

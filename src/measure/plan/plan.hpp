@@ -73,8 +73,8 @@ Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
 // and always `technique`, `data` and `camera`.
 [[nodiscard]] std::string configuration_key(const Suite& suite, const Configuration& configuration);
 
-// Returns the kinds of work (technique::name_of()) that occur in the plan's configurations, without
-// duplicates. If times are measured, the clocks are calibrated for these kinds.
+// Returns the kinds of work ("compute", "draw") of the techniques in the plan's configurations,
+// without duplicates. If times are measured, the clocks are calibrated for these kinds.
 [[nodiscard]] std::vector<std::string> work_kinds(const Plan& plan);
 
 }  // namespace triptych::measure

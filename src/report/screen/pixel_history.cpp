@@ -49,7 +49,8 @@ std::string about_take(const SampleRow& row) {
                       : "the device took a sample that does not exist on this ray";
 }
 
-// Returns the sentence below a row that differs.
+// Returns the sentence that follows a row of the table in which the device and the reference
+// differ. It states the difference.
 std::string difference(const SampleRow& row) {
   const Operation what = row.differs.value();
   if (what == Operation::take) return about_take(row);
