@@ -17,8 +17,9 @@ double upper_tail(double z) {
   return estimation::student_t_upper_tail(z, infinite);
 }
 
-// The ranks of values by their distance from 0, and the sum of t³ − t over all groups of t ties.
-// The ranks are doubled, so that the mean ranks of ties are integers.
+// The ranks of values by their distance from 0, and the sum that corrects the variance for ties:
+// the sum of t³ − t over all groups of t equal values. The ranks are doubled, so that the mean
+// ranks of ties are integers.
 struct Ranks {
   std::vector<std::size_t> doubled;  // smallest distance first
   std::size_t doubled_statistic = 0;
@@ -87,8 +88,8 @@ std::size_t averages_outside(std::size_t n, double tail) {
   return k;
 }
 
-// The smallest variance that is assumed between process runs. No clock resolves a millionth of a
-// batch, so a smaller variance would be an artefact of the timers.
+// The smallest variance of ln t that is assumed between process runs: (10⁻⁶)². No clock resolves a
+// millionth of a batch, so a smaller variance would be an artefact of the timers.
 constexpr double least_variance = 1e-12;
 
 PairVerdict unconfirmed(const Interval& interval, const SequentialDesign& design) {

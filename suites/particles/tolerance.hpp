@@ -24,10 +24,11 @@ namespace triptych::particles_suite {
 //     image at that depth, so the three errors sum up to 3u·W/2.
 //   - The error in two axes is √2 times as large. The total is below 8u·W.
 //   - Rays that are computed at vertices and interpolated have an additional error, because
-//     vertices are snapped to the rasterizer's grid of g = 2⁻ᵇ pixel. The interpolated ray is the
-//     ray of a point that is up to g/2 away along each axis. The model adds g, of which the other
-//     half is for the interpolation itself. Rays that are computed per pixel do not depend on the
-//     grid, because sprites are large enough to allow for snapping (margins.hpp).
+//     vertices are snapped to the rasterizer's grid of g = 2⁻ᵇ pixel, where b is the number of
+//     sub-pixel bits. The interpolated ray is the ray of a point that is up to g/2 away along each
+//     axis. The model adds g, of which the other half is for the interpolation itself. Rays that
+//     are computed per pixel do not depend on the grid, because sprites are large enough to allow
+//     for snapping (margins.hpp).
 //
 // 2. Lateral error, relative to the radius. A ray hits if |m|² ≤ r²·q. The right side has an error
 // of 5u (3u from q and 2u from two products), and so has the left side (three squares and two
@@ -35,11 +36,11 @@ namespace triptych::particles_suite {
 //
 // 3. Error of the depth, relative to |c| + r.
 //   - b = c·d consists of 3 products and 2 sums, 3u·|c||d|. The error of c adds u: 4u.
-//   - The error of the discriminant D is the lateral error above. Taking the square root √D adds
-//     5u.
-//   - The difference b − √D adds u, the division by q adds 5u, and q itself 3u. The reversed depth
-//     near/Z of the distance Z along the view axis adds 5u, and its conversion back to a distance
-//     adds u. The total is 24u.
+//   - The error of the discriminant D = r²·q − |m|² is the lateral error above. Taking the square
+//     root √D adds 5u.
+//   - The difference b − √D adds u, the division by q adds 5u, and q itself 3u. The depth is stored
+//     as near/Z, where Z is the distance along the view axis, and `near` is the distance of the
+//     near plane. This adds 5u, and the conversion back to a distance adds u. The total is 24u.
 //
 // 4. Error of the colour, relative to full scale.
 //   - cosine = √(D/q)/r: 5u for each of the two divisions, 5u for the square root, and 2u from q.

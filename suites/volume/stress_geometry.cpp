@@ -72,8 +72,9 @@ StressScene stress_within_face(std::string_view variant) {
   return with_middle_ray(seen_from(along({-9, y, edge}, {1, 0, 0}, {0, 1, 0}, 70)));
 }
 
-// The image is 0.04 voxels wide. The chord of a ray tends to 0 as the ray approaches the edge or
-// corner. The field has no zeros, so that even the shortest chord is visible.
+// The image is 0.04 voxels wide, and shows an edge or a corner of the volume (`edge`, `corner`).
+// The chord of a ray tends to 0 as the ray approaches this edge or corner. The field has no zeros,
+// so that even the shortest chord is visible.
 StressScene stress_chord(std::string_view variant) {
   StressScene scene = lopsided_scene();
   scene.function = uniform({0.75F, 0.5F, 0.25F, 0.9999F});
