@@ -40,7 +40,8 @@ struct VariancePrior {
 // a single group, d₀ is 0, because there is nothing to combine.
 [[nodiscard]] VariancePrior fit_variance_prior(std::span<const double> variances,
                                                std::span<const double> degrees);
-// Returns the moderated variance s̃² = (d₀s₀² + d·s²)/(d₀ + d).
+// Returns the moderated variance s̃² = (d₀s₀² + d·s²)/(d₀ + d) of a group with the variance s² and
+// d degrees of freedom, for a prior with the parameters d₀ and s₀².
 [[nodiscard]] double moderated_variance(const VariancePrior& prior, double variance,
                                         double degrees);
 // Returns the x > 0 for which the trigamma function ψ'(x) is y, for y > 0.

@@ -123,8 +123,8 @@ class PreintegrationBound {
   double widening_;
   Reach around_;
   double alpha_error_;
-  double least_ = 0;         // smallest optical depth on a device of the pieces so far
-  double most_ = 0;          // largest optical depth on a device of the pieces so far
+  double least_ = 0;         // smallest optical depth of the pieces so far on any device
+  double most_ = 0;          // largest optical depth of the pieces so far on any device
   double depth_ = 0;         // exact optical depth of the pieces so far
   double tails_ = 0;         // truncation errors of the series, per voxel
   double front_ = 1;         // largest share of the light that is left behind the pieces so far

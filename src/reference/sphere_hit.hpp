@@ -81,7 +81,7 @@ inline Reach reach(const Passage& ray, const Wobble& wobble) {
   const double room = std::max(ray.distance + shift - ray.across, 0.0);
   const double up = std::min(delta, room);
   const double lowest = ray.half_squared - up * (2 * ray.across + up);
-  // Δb
+  // Δb, the bound on |b' − b| that is derived above.
   const double slide = wobble.chord * (ray.across + 0.5 * wobble.chord * std::abs(ray.along));
   result.half_hi = std::sqrt(highest);
   result.half_lo = std::sqrt(std::max(lowest, 0.0));

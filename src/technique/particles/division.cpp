@@ -214,8 +214,8 @@ void Division::divide(Crowd all) {
   while (!open.empty()) {
     const Crowd crowd = open.back();
     open.pop_back();
-    // The saving of a plane is less than the cost of this part, which is its number of particles
-    // times its surface area.
+    // A plane saves less than the cost of this part, which is its number of particles times its
+    // surface area. Dividing at most `price_` particles is therefore never worthwhile.
     if (static_cast<double>(crowd.places.size()) <= price_) continue;
     const std::optional<Plane> plane = PlaneSearch(scene_, crowd.places).best(price_);
     if (!plane) continue;

@@ -46,7 +46,7 @@ struct CountedFrame {
 };
 // Computes Triptych's own counters, which have the same names on every API. Each technique reports
 // only the counters that apply to it. The counts come from frames drawn with Purpose::counters.
-//   cells, cells_culled   cells of the arrangement, and cells that were left out
+//   cells, cells_culled   cells (groups of particles), and cells that were left out
 //   particles_submitted   particles of the cells that were drawn
 //   particles_culled      particles of the cells that were left out
 //   sprites               particles whose sprite (for tiles: pixel rectangle) is not empty

@@ -1,6 +1,6 @@
 // A work group of 32 invocations processes each tile that tiles_place has listed. There are eight invocations for each
-// quarter of the tile, and each of them processes a column of eight pixels. They find the nearest entry at each pixel,
-// and then the farthest depth among the tile's pixels.
+// quarter of the tile, and each of them processes a column of eight pixels. They find the nearest entry (large sphere)
+// at each pixel, and then the farthest depth among the tile's pixels.
 layout(local_size_x = 32) in;
 
 struct Column {  // eight pixels; each vector holds two, as a texel of large_pixels does

@@ -29,9 +29,9 @@ std::size_t after(std::size_t face, int voxels) {
   return std::min(face, static_cast<std::size_t>(voxels) - 1);
 }
 
-// Fills `out` with the texels from index `texel` on, one row of cells after the other. The size of
-// a voxel is a template parameter, so that memcpy has a constant size and is inlined; otherwise,
-// each texel would need eight calls.
+// Fills `out` with the texels from index `texel` on, one row of cells (spaces between neighbouring
+// voxel centres) after the other. The size of a voxel is a template parameter, so that memcpy has a
+// constant size and is inlined; otherwise, each texel would need eight calls.
 template <std::size_t voxel_bytes, std::size_t layers>
 void fill_rows(const scene::VoxelGrid& grid, std::size_t texel, std::span<std::byte> out) {
   const auto cells = cells_of(grid.size);

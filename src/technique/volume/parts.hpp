@@ -94,8 +94,8 @@ struct PartParameters {
 struct PartPass {
   Part part;
   PartParameters parameters;
-  // Whether any brick near the part is visible. If not, leaps skip all voxels of the part, so they
-  // need not be on the device.
+  // Whether any brick near the part is visible. If not, the leaps of Skip::distance skip all voxels
+  // of the part, so these voxels need not be on the device.
   bool read = true;
 };
 // Returns the passes in order. `map` is the brick_map for this scene and these options.

@@ -40,7 +40,8 @@ void add_part_of_cell(inout vec4 gathered, int cell, float a, float b, float len
             (0.5 - 0.1 * square) * change.rgb, (tilt * (0.071428571 * square - 0.16666667)) * change.rgb);
 }
 
-// Returns the optical depth of the whole cells from entry `first` to `last`, in powers of two.
+// Returns the optical depth of the whole cells (intervals between entries) from entry `first` to `last`, in powers of
+// two.
 float depth_of_cells(int first, int last, float per_cell) {
   return per_cell * quadrature_entry(3 * (256 * first + last)).x;
 }
