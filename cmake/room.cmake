@@ -76,12 +76,12 @@ function(triptych_test_code target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endfunction()
 
-# triptych_test(NAME SOURCES file... ROOMS room... [LABELS label...] [LIBS lib...])
-# Adds a GoogleTest program. CTest discovers its test cases.
+# triptych_test(NAME SOURCES file... ROOMS room... [LABELS label...] [LIBS lib...] [EACH])
+# Adds a GoogleTest program. CTest runs each of its test suites as one test or, with EACH, each of its tests.
 function(triptych_test name)
-  cmake_parse_arguments(arg "" "" "SOURCES;ROOMS;LABELS;LIBS" ${ARGN})
+  cmake_parse_arguments(arg "EACH" "" "SOURCES;ROOMS;LABELS;LIBS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE triptych_options GTest::gmock GTest::gtest_main ${arg_LIBS})
+  target_link_libraries(${name} PRIVATE triptych_options GTest::gmock triptych_test_main ${arg_LIBS})
   foreach(room IN LISTS arg_ROOMS)
     target_link_libraries(${name} PRIVATE triptych_${room})
   endforeach()
@@ -89,20 +89,20 @@ function(triptych_test name)
     set(arg_LABELS unit)
   endif()
   triptych_test_code(${name})
-  triptych_patience(60 discovery)
-  triptych_patience(300 timeout)
-  gtest_discover_tests(${name} TEST_PREFIX "${name}." DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT ${discovery}
-                       PROPERTIES TIMEOUT ${timeout})
-  # gtest_discover_tests cannot pass a list of labels, so the labels are set on the discovered tests. Processes that share
-  # PoCL's kernel cache crash, so only one OpenCL test runs at a time.
-  set(lock "")
+  triptych_patience(600 timeout)
+  set(properties "TIMEOUT ${timeout} SKIP_RETURN_CODE 77")
+  # Processes that share PoCL's kernel cache crash, so only one OpenCL test runs at a time. These tests begin first, because they
+  # would otherwise run alone at the end.
   if("opencl" IN_LIST arg_LABELS)
-    set(lock " RESOURCE_LOCK pocl_cache")
+    string(APPEND properties " RESOURCE_LOCK pocl_cache COST 300")
   endif()
-  set(labels_file ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake)
-  file(WRITE ${labels_file}
-    "if(${name}_TESTS)\n"
-    "  set_tests_properties(\${${name}_TESTS} PROPERTIES LABELS \"${arg_LABELS}\"${lock})\n"
-    "endif()\n")
-  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${labels_file})
+  file(GENERATE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}_tests.cmake CONTENT
+"set(TRIPTYCH_NAME ${name})
+set(TRIPTYCH_PROGRAM \"$<TARGET_FILE:${name}>\")
+set(TRIPTYCH_LABELS \"${arg_LABELS}\")
+set(TRIPTYCH_PROPERTIES ${properties})
+set(TRIPTYCH_EACH ${arg_EACH})
+include(\"${PROJECT_SOURCE_DIR}/cmake/discover_tests.cmake\")
+")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}_tests.cmake)
 endfunction()

@@ -88,13 +88,16 @@ TEST(Contract, AVolumeBeyondEveryLimitIsRejectedWithBothNumbers) {
   });
 }
 
+class DriverVariables : public testing::Environment {
+ public:
+  void SetUp() override {
+    // The null backend has devices only if it is given a script.
+    ::setenv("TRIPTYCH_NULL_SCRIPT", "{}", 0);
+    ::setenv("POCL_PTHREAD_MIN_WGS", "1", 0);
+  }
+};
+[[maybe_unused]] const testing::Environment* const driver_variables =
+    testing::AddGlobalTestEnvironment(new DriverVariables);  // GoogleTest deletes it
+
 }  // namespace
 }  // namespace triptych::contract
-
-// The null backend has devices only if it is given a script.
-int main(int argc, char** argv) {
-  ::setenv("TRIPTYCH_NULL_SCRIPT", "{}", 0);
-  ::setenv("POCL_PTHREAD_MIN_WGS", "1", 0);
-  testing::InitGoogleTest(&argc, argv);
-  return RUN_ALL_TESTS();
-}

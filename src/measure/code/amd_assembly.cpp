@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "measure/code/take_line.hpp"
+
 namespace triptych::measure {
 namespace {
 
@@ -80,14 +82,6 @@ std::string label_of(std::string_view text) {
   if (text.starts_with('.')) text.remove_prefix(1);
   if (text.starts_with('L')) text.remove_prefix(1);
   return std::string(text);
-}
-
-// Removes the first line of the text and returns it.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return line;
 }
 
 std::string_view without_comment(std::string_view line) {

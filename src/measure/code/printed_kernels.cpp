@@ -3,17 +3,10 @@
 #include <utility>
 
 #include "measure/code/compiled_code.hpp"
+#include "measure/code/take_line.hpp"
 
 namespace triptych::measure {
 namespace {
-
-// Removes the first line of the text and returns it.
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = text.find('\n');
-  const std::string_view line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  return line;
-}
 
 // Returns the kernel's name in a line such as "=== Printing nir for 'raycast' after spirv_to_nir"
 // or "=== Printing nir variant 'Default' for 'raycast' before driver finalization". Returns an
