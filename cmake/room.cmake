@@ -68,12 +68,16 @@ function(triptych_patience seconds out)
   set(${out} ${patience} PARENT_SCOPE)
 endfunction()
 
-# Compiles the code of a test with less optimization than the rooms, because tests spend little time in their own code. Without
-# any optimization, tests would take longer, because the linker may keep the unoptimized template instances from a test instead
-# of those from a room.
+# Compiles the code of a test without optimization, because most tests spend little time in their own code. Tests that draw or
+# compute reference images are compiled with OPTIMIZED. Otherwise they would take longer, because the linker may keep the
+# unoptimized template instances from a test instead of those from a room.
 function(triptych_test_code target)
   triptych_batch(${target})
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  set(level -O0)
+  if("OPTIMIZED" IN_LIST ARGN)
+    set(level -O1)
+  endif()
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:${level}>)
 endfunction()
 
 # triptych_test(NAME SOURCES file... ROOMS room... [LABELS label...] [LIBS lib...] [EACH])
@@ -88,7 +92,11 @@ function(triptych_test name)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)
   endif()
-  triptych_test_code(${name})
+  if("device" IN_LIST arg_LABELS OR "reference" IN_LIST arg_ROOMS)
+    triptych_test_code(${name} OPTIMIZED)
+  else()
+    triptych_test_code(${name})
+  endif()
   triptych_patience(600 timeout)
   set(properties "TIMEOUT ${timeout} SKIP_RETURN_CODE 77")
   # Processes that share PoCL's kernel cache crash, so only one OpenCL test runs at a time. These tests begin first, because they

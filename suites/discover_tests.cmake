@@ -2,9 +2,9 @@
 # every plan and device, it then registers one test that measures, and one test for each check of the results. If the program
 # has not been built or cannot list the devices, the script registers a test that fails.
 #
-# Every device measures the quick plans. To save time, the other plans are measured on only one device per driver, the plans
-# `stress` only with OpenGL and OpenCL, and the plans `accuracy` only with OpenCL. Vulkan and OpenGL share the source code of
-# their shaders, and the tests in tests/contract compare all three with the reference. If the environment variable
+# Every device measures the quick plans. To save time, the other plans are measured on only one device per driver, and each of
+# the plans `stress` and `accuracy` only with OpenGL or only with OpenCL. Vulkan and OpenGL share the source code of their
+# shaders, and the tests in tests/contract compare all three with the reference. If the environment variable
 # TRIPTYCH_EVERY_DEVICE is set, as in the nightly run, every device measures every plan.
 # Variables set by the caller: TRIPTYCH_PROGRAM, TRIPTYCH_TEST_FOLDER.
 if(NOT EXISTS "${TRIPTYCH_PROGRAM}")
@@ -13,14 +13,14 @@ if(NOT EXISTS "${TRIPTYCH_PROGRAM}")
 endif()
 set(triptych_all volume/quick particles/quick)
 set(triptych_drivers volume/real particles/real volume/cost particles/cost)
-set(triptych_stress volume/stress particles/stress)
-set(triptych_accuracy volume/accuracy particles/accuracy)
+set(triptych_gl volume/stress particles/accuracy)
+set(triptych_opencl volume/accuracy particles/stress)
 if("$ENV{TRIPTYCH_EVERY_DEVICE}" STREQUAL "")
   list(TRANSFORM triptych_drivers PREPEND "--one-per-driver=")
-  list(TRANSFORM triptych_stress PREPEND "--one-per-driver=")
-  list(TRANSFORM triptych_accuracy PREPEND "--one-per-driver=")
-  list(APPEND triptych_stress --device "gl:*" --device "opencl:*")
-  list(APPEND triptych_accuracy --device "opencl:*")
+  list(TRANSFORM triptych_gl PREPEND "--one-per-driver=")
+  list(TRANSFORM triptych_opencl PREPEND "--one-per-driver=")
+  list(APPEND triptych_gl --device "gl:*")
+  list(APPEND triptych_opencl --device "opencl:*")
 endif()
 # triptych_register(NAME ARGUMENT...) writes the tests to NAME.cmake and includes this file.
 macro(triptych_register name)
@@ -36,5 +36,5 @@ macro(triptych_register name)
   endif()
 endmacro()
 triptych_register(tests ${triptych_all} ${triptych_drivers})
-triptych_register(stress_tests ${triptych_stress})
-triptych_register(accuracy_tests ${triptych_accuracy})
+triptych_register(gl_tests ${triptych_gl})
+triptych_register(opencl_tests ${triptych_opencl})
