@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <csignal>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
@@ -27,8 +28,12 @@ bool drain(int fd, Take take) {
       take(std::span<const char>(piece.data(), static_cast<std::size_t>(got)));
     } else if (got == 0) {
       return false;
+    } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+      return true;
     } else if (errno != EINTR) {
-      return errno == EAGAIN || errno == EWOULDBLOCK;
+      // This is not the end of the worker, so it must not be recorded as the driver's crash.
+      throw core::IoError(fmt::format("cannot read from a worker process: {}",
+                                      std::generic_category().message(errno)));
     }
   }
 }
