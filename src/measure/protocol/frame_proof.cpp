@@ -106,14 +106,22 @@ void FrameProof::check_drawn(std::string_view what) {
   read(what);
 }
 
-void check_loop(const std::vector<double>& loop_wall_ns,
-                const std::vector<double>& proven_wall_ns) {
+void check_loop(const std::vector<double>& loop_wall_ns, std::vector<double> proven_wall_ns,
+                const std::function<double()>& draw_checked) {
   constexpr double least_judged_ns = 2e6;
   constexpr double least_share = 0.1;
+  constexpr std::size_t most_frames = 100;
   if (proven_wall_ns.empty() || loop_wall_ns.empty()) return;
-  const double proven = std::ranges::min(proven_wall_ns);
   const double fastest = std::ranges::min(loop_wall_ns);
-  if (proven < least_judged_ns || fastest >= least_share * proven) return;
+  double proven = std::ranges::min(proven_wall_ns);
+  const auto is_explained = [&] {
+    return proven < least_judged_ns || fastest >= least_share * proven;
+  };
+  while (!is_explained() && proven_wall_ns.size() < most_frames) {
+    proven_wall_ns.push_back(draw_checked());
+    proven = std::min(proven, proven_wall_ns.back());
+  }
+  if (is_explained()) return;
   throw NotDrawn(
       fmt::format("a frame of the wall-clock loop (frames drawn back to back) was not drawn: it "
                   "took {:.3g} ms, but the fastest of the {} checked frames took {:.3g} ms",

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -72,9 +73,14 @@ class FrameProof {
 
 // Checks the frame times of the wall-clock loop. Its frames follow each other without a pause, so
 // only the last image can be checked. Throws NotDrawn if a frame took less than a tenth of the time
-// of the fastest proven frame, because neither rising clock rates nor caches explain a factor of
-// ten. Frames that take less than 2 ms are not judged, because a tenth of that may be just the time
-// of a launch.
-void check_loop(const std::vector<double>& loop_wall_ns, const std::vector<double>& proven_wall_ns);
+// of the fastest frame whose image was checked (`proven_wall_ns`), because neither rising clock
+// rates nor caches explain a factor of ten. Frames that take less than 2 ms are not judged, because
+// a tenth of that may be just the time of a launch.
+//
+// On a busy machine, all checked frames may have been slow. Therefore, before it throws, the
+// function draws more frames with `draw_checked`, which returns the wall time of a frame after
+// checking its image, until one of them is fast enough.
+void check_loop(const std::vector<double>& loop_wall_ns, std::vector<double> proven_wall_ns,
+                const std::function<double()>& draw_checked);
 
 }  // namespace triptych::measure

@@ -232,7 +232,11 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
     record.energy = counted([&] { return meters->of_a_frame(draw); });
   }
   proof.check("the last frame of the wall-clock loop");
-  check_loop(loop_wall_ns, record.wall_ns);
+  check_loop(loop_wall_ns, record.wall_ns, [&] {
+    const Frame frame = counted([&] { return proof.draw(Purpose::timing); });
+    proof.check("a frame after the wall-clock loop");
+    return frame.wall_ns;
+  });
 
   for (core::Json& entry : loop.entries) entries.push_back(std::move(entry));
   add_counts(entries, record.counters);

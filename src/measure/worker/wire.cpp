@@ -58,9 +58,12 @@ void write_all(int fd, const void* data, std::size_t size) {
   while (size > 0) {
     const ssize_t written = ::write(fd, next, size);
     if (written < 0) {
-      if (errno == EINTR) continue;
-      throw core::IoError(
-          fmt::format("cannot write to a pipe: {}", std::generic_category().message(errno)));
+      const int error = errno;
+      if (error == EINTR) continue;
+      const std::string reason =
+          fmt::format("cannot write to a pipe: {}", std::generic_category().message(error));
+      if (error == EPIPE) throw PipeClosed(reason);
+      throw core::IoError(reason);
     }
     next += written;
     size -= static_cast<std::size_t>(written);

@@ -28,6 +28,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "measure/contract/suite.hpp"
 #include "measure/protocol/protocol.hpp"
 #include "record/record.hpp"
@@ -39,7 +40,12 @@ struct Message {
   std::vector<std::byte> binary;
 };
 
-// Writes the whole message. Throws IoError if the other process has closed the pipe.
+// The other process has closed the pipe.
+struct PipeClosed : core::IoError {
+  using IoError::IoError;
+};
+
+// Writes the whole message. Throws PipeClosed, or IoError if writing fails for another reason.
 void send(int fd, const Message& message);
 // Waits for one message. Returns nullopt if the other process has closed the pipe. Throws IoError
 // if the pipe was closed within a message, and InputError for bytes that are not a message.

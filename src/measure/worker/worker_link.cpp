@@ -78,7 +78,7 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
   const Deadline deadline = std::chrono::steady_clock::now() + limit;
   try {
     send(process_.request_fd(), request);
-  } catch (const core::IoError&) {
+  } catch (const PipeClosed&) {
     return bury();
   }
   for (;;) {
