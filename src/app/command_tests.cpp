@@ -33,7 +33,7 @@ struct TestsArguments {
 
 core::ExitCode list_tests(const TestsArguments& arguments) {
   if (arguments.plans.empty() && arguments.large.empty()) {
-    throw core::InputError("name a plan as PLAN or with --one-per-driver");
+    throw core::InputError("no plan is given: add PLAN, or --one-per-driver PLAN");
   }
   const Registry registry = make_registry();
   measure::Listing listing = registry.devices(arguments.devices);

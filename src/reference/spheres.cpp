@@ -25,7 +25,8 @@ void check(const scene::ParticleScene& scene) {
       (set.colour == scene::ColourKind::rgba32 && set.rgba32.size() == set.count()) ||
       (set.colour == scene::ColourKind::intensity && set.intensity.size() == set.count());
   if (set.ids.size() != set.count() || !coloured) {
-    throw core::InputError("every particle needs an id and a colour in the set's format");
+    throw core::InputError(
+        "every particle needs an id, and a colour in the colour format of the particle set");
   }
 }
 

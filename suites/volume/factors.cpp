@@ -70,9 +70,9 @@ const std::vector<Factor>& volume_factors() {
           Decides::the_picture,
           "the rule for the ray integral; midpoint: one sample for each step; preintegrated: the "
           "transfer function is integrated between the values at both ends of a step; cells: a "
-          "fourth-order rule, for which rays are cut at voxel planes, into ⌈1/step⌉ parts between "
-          "voxel planes, and at the kinks of the transfer function; own: the stress case's rule "
-          "(midpoint for all other data)"),
+          "fourth-order rule, for which rays are cut at the planes through voxel centres and at "
+          "the kinks of the transfer function, and are divided into ⌈1/step⌉ equal parts between "
+          "two such planes; own: the stress case's rule (midpoint for all other data)"),
       choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_picture,
              "none, or gradient: shading by a headlight, with gradients computed by central "
              "differences; own: the stress case's shading (none for all other data)"),

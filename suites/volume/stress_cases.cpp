@@ -47,8 +47,9 @@ std::vector<StressCase> cases_of_geometry() {
       {6,
        "octant",
        "volume and camera are mirrored into all eight octants",
-       "each image is a mirror image of the first one within the sum of both error bounds, but not "
-       "bit-identical, because a coordinate and its mirrored value are rounded differently",
+       "each image equals the image of variant ppp, mirrored horizontally if an odd number of axes "
+       "is mirrored, within the sum of both error bounds, but is not bit-identical to it, because "
+       "a coordinate and its mirrored value are rounded differently",
        {"ppp", "mpp", "pmp", "mmp", "ppm", "mpm", "pmm", "mmm"},
        stress_octant},
       {7,

@@ -103,7 +103,10 @@ StressScene stress_octant(std::string_view variant) {
                        sign * plain.up, plain.fov_y_deg);
   if (variant != "ppp") {
     scene.expectations = {
-        {"the mirror image of the first octant's image, within the sum of both error bounds",
+        {sign.x * sign.y * sign.z < 0
+             ? "the horizontally mirrored image of the scene stress:octant:ppp, within the sum of "
+               "both error bounds"
+             : "the image of the scene stress:octant:ppp, within the sum of both error bounds",
          record::SamePicture{.changed = {{"data", "stress:octant:ppp"}},
                              .mirrored_x = sign.x * sign.y * sign.z < 0,
                              .to_the_bit = false}}};

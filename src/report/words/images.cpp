@@ -92,8 +92,8 @@ std::string devices_compared(const Observation& what) {
 }
 
 std::string score(const Observation& what) {
-  std::string text = fmt::format("the score is {:.0f} of {:.0f} points", what.number("score"),
-                                 what.number("best"));
+  std::string text = fmt::format("this stress case gets {:.0f} of {:.0f} points for correctness",
+                                 what.number("score"), what.number("best"));
   if (what.numbers.contains("accepted")) {
     text += fmt::format(" (accepted: {:.0f})", what.number("accepted"));
   } else {

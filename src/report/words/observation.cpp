@@ -289,8 +289,8 @@ std::string sentence_of(const Observation& what) {
       return "errors cannot be measured, because no scene of this plan has a limit image (the "
              "image for a step size of 0)";
     case Cause::no_limit_any_more:
-      return "the baselines contain an error for this scene, but the scene no longer has a limit "
-             "image";
+      return "the baselines store the image error that was measured against this scene's limit "
+             "image (the image for a step size of 0), but the scene no longer has a limit image";
     case Cause::order:
     case Cause::no_order:
       return order(what);

@@ -94,8 +94,9 @@ std::string values_changed(const Observation& what) {
   return text;
 }
 
-// States that the compilers differ, and lists the changed totals over all configurations, under the
-// names that Mesa developers use.
+// States that the compilers differ. For each statistic of the GPU code that changed, such as the
+// number of instructions, also lists its sum over all compared configurations before and after the
+// change. The statistics have the names that Mesa developers use.
 std::string other_compiler(const Observation& what) {
   std::string text = fmt::format(
       "not judged, because driver version {} uses a different compiler than the accepted version "
