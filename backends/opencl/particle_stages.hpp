@@ -67,9 +67,11 @@ class ParticleStages {
   [[nodiscard]] cl::NDRange cell_range() const;
   [[nodiscard]] Launch cull(const ParticlePrograms& programs) const;
   [[nodiscard]] Launch test(const ParticlePrograms& programs) const;
+  // Adds the launches that compute the vertices of the sprites, if this needs separate passes.
   void add_expansion(const ParticlePrograms& programs, const Pass& pass,
                      std::vector<Launch>& to) const;
-  // Adds the last argument of kernels that read the results of the expansion.
+  // If the passes of add_expansion() stored vertices or points, sets them (`stored_`) as the last
+  // argument of a kernel that reads them.
   void add_stored(Launch& launch) const;
   [[nodiscard]] Launch shade(const ParticlePrograms& programs, const Pass& pass) const;
   void add_binning(const ParticlePrograms& programs, const Pass& pass, cl_uint state,

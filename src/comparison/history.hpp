@@ -67,11 +67,10 @@ class HistoryBuilder {
 
  private:
   using Points = std::map<std::string, HistoryPoint>;  // by device
-  // The most recent cost or time of a configuration (`amount`), and the index (HistoryPoint::cost
-  // or HistoryPoint::time) of the store that contains it (`value`).
+  // The most recent cost or time of a configuration.
   struct Link {
-    double amount;
-    double value;
+    double amount;  // the cost or time as measured
+    double value;   // the chained index (HistoryPoint::cost or ::time) of the store it comes from
   };
   using Chain = std::map<std::string, Link>;
   struct Known {  // what is known about a device so far

@@ -256,7 +256,8 @@ class CellRule {
     return {nominal, nominal - doubtful_length(ray, from, to) / smallest_spacing_, nominal};
   }
 
-  // Returns the ray with the uncertainty of all positions increased by up to `way` along the ray.
+  // Returns the ray with a position error that also covers a displacement of the points along the
+  // ray by up to `way`.
   [[nodiscard]] static Ray widened(Ray ray, double way) {
     ray.position_error = ray.position_error_within(way);
     return ray;

@@ -50,8 +50,9 @@ class Compositor {
   double largest_ = 1;   // largest transmittance on a device so far
   double smallest_ = 1;  // smallest transmittance on a device so far
   // A device with early termination stops after one of the samples first_stop_ … last_stop_. If a
-  // device merges samples, its transmittance may be wrong by up to ErrorModel::adapt. It may then
-  // stop as early as this error allows, or only at its last sample.
+  // device draws several samples of a nearly homogeneous brick as one (factor `adapt`), its
+  // transmittance may be wrong by up to ErrorModel::adapt. first_stop_ then takes this error into
+  // account, and last_stop_ has no limit, because the device may draw all samples.
   std::size_t first_stop_ = 0;
   std::size_t last_stop_ = 0;
 };

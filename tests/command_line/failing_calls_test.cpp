@@ -1,7 +1,8 @@
-// Makes system calls of a small run, accept, merge and gate fail. Each command must either exit
-// with 0 and have written everything, or exit with another code and a line that names the failure.
-// It must never leave a half-written baseline. By default, 12 calls of each command fail,
-// distributed over all of its calls. TRIPTYCH_KILLS=N makes N calls fail instead.
+// Tests how the commands run, accept, merge and gate react to a system call that fails. A command
+// must either exit with 0 and have written everything, or exit with another code and a line that
+// names the failure. It must never leave a half-written baseline. By default, each command is
+// repeated about 12 times. In each repetition, a single system call fails. These calls are spread
+// evenly over all calls that the command makes. TRIPTYCH_KILLS=N sets the number of repetitions.
 
 #include "failing_calls.hpp"
 

@@ -1,6 +1,7 @@
 #pragma once
 // Computes how much of a change in time comes from a changed amount of work:
-// Δ ln t = Δ ln(work) + Δ ln(time per unit of work).
+// Δ ln t = Δ ln(work) + Δ ln(time per unit of work). One of Triptych's counters measures the
+// work, so a unit of work is, for example, one sample.
 
 #include <array>
 #include <functional>
@@ -18,11 +19,11 @@ inline constexpr std::array<std::string_view, 2> work_units{"samples", "fragment
 
 struct WorkChange {
   double log_ratio = 0;  // ln(work now/work then)
-  std::string unit;      // one of work_units
+  std::string unit;      // the counter that measures the work, one of work_units
 };
 
-// Compares the counts `now` with earlier counts; `then` returns the earlier count of a unit.
-// Returns nullopt if no unit was counted in both runs with a positive count.
+// Compares the counts `now` with earlier counts; `then` returns the earlier count of a counter.
+// Returns nullopt if none of the counters in work_units has a positive count in both runs.
 [[nodiscard]] std::optional<WorkChange> work_change(
     const record::Counts& now,
     const std::function<std::optional<double>(const std::string&)>& then);

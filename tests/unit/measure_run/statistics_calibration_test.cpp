@@ -28,7 +28,6 @@ using Calibration = std::map<std::string, StatisticWorth>;
 
 const StatisticWorth exact;
 
-// Matches statistics whose `worth` has this value.
 MATCHER_P(Is, worth, "") {
   return arg.worth == worth;
 }
