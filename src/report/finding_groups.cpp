@@ -368,6 +368,8 @@ bool take_in(FindingGroup& group, const FindingGroup& other) {
     group.wrong_on = other.wrong_on;
   }
   group.worst = worse_of(group.worst, other.worst);
+  // Findings without numbers, such as skips, are equally severe.
+  if (group.worst != nullptr && severity_of(*group.worst) == 0) group.worst = group.first;
   group.configurations += other.configurations;
   group.members.insert(group.members.end(), other.members.begin(), other.members.end());
   group.changed_with_it += other.changed_with_it;

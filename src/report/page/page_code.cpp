@@ -126,6 +126,8 @@ Html side_by_side(const std::string& before, const std::string& now) {
   return table(rows);
 }
 
+// Returns the old and the new disassembly of each executable of the configuration, or nothing if
+// the store has no earlier disassembly.
 Html disassembly_of(const record::Store& store, const judge::Finding& finding,
                     const record::Record& record, EarlierRuns& earlier) {
   Html html;
@@ -136,22 +138,30 @@ Html disassembly_of(const record::Store& store, const judge::Finding& finding,
     if (!now || !before) continue;
     html += markup("<h4>{}</h4>{}", name, side_by_side(*before, *now));
   }
-  if (!html.empty()) return html;
-  return markup(
-      "<p>The store contains no earlier disassembly of this configuration. To see the old and the "
-      "new disassembly, compare with the previous build (<code>triptych gate --base "
-      "PROGRAM</code>), or first run the plan with the previous build and the same store.</p>");
+  return html;
 }
 
 Html changed_code(const record::Store& store, const PlanData& plan) {
   Html html;
+  int without = 0;
   EarlierRuns earlier(store, plan);
   for (const judge::Finding& finding : plan.verdict->findings) {
     if (finding.check != Check::code || finding.verdict != judge::Verdict::regression) continue;
     const record::Record* record = record_of(plan.records, finding);
     if (record == nullptr || record->code.empty()) continue;
-    html += folded(markup("{}, {}", finding.device, breakable(finding.configuration)),
-                   disassembly_of(store, finding, *record, earlier));
+    const Html both = disassembly_of(store, finding, *record, earlier);
+    if (both.empty()) {
+      ++without;
+    } else {
+      html += folded(markup("{}, {}", finding.device, breakable(finding.configuration)), both);
+    }
+  }
+  if (without > 0) {
+    html += markup(
+        "<p>The store contains no earlier disassembly for {} of the findings. To see the old and "
+        "the new disassembly, compare with the previous build (<code>triptych gate --base "
+        "PROGRAM</code>), or first run the plan with the previous build and the same store.</p>",
+        without);
   }
   return html.empty() ? html : markup("<h3>Disassembly of code that got worse</h3>") + html;
 }
