@@ -367,9 +367,8 @@ bool take_in(FindingGroup& group, const FindingGroup& other) {
     group.right_on = other.right_on;
     group.wrong_on = other.wrong_on;
   }
-  group.worst = worse_of(group.worst, other.worst);
-  // Findings without numbers, such as skips, are equally severe.
-  if (group.worst != nullptr && severity_of(*group.worst) == 0) group.worst = group.first;
+  // If all findings are equally severe, such as skips, the smallest case is also the worst.
+  group.worst = worse_of(group.first, worse_of(group.worst, other.worst));
   group.configurations += other.configurations;
   group.members.insert(group.members.end(), other.members.begin(), other.members.end());
   group.changed_with_it += other.changed_with_it;

@@ -41,7 +41,8 @@ struct FindingGroup {
   std::size_t changed_with_it = 0;
   std::vector<const judge::Finding*> members = {};
   std::vector<std::string> devices = {};  // the devices of the members, sorted
-  std::string kind = {};                  // judge::kind_of() of the findings
+  // judge::kind_of() of the findings; if they are about changed code, only their cause.
+  std::string kind = {};
   // The member with the largest error: the one with the most wrong pixels or the largest change.
   const judge::Finding* worst = nullptr;
   [[nodiscard]] Blame blame() const;

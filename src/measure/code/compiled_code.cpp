@@ -30,10 +30,10 @@ bool counts_instructions(const std::map<std::string, double>& statistics) {
 // The drivers that do not report the number of instructions compile with LLVM. The pass of LLVM
 // that inserts waits depends on memory addresses, so the number of waits differs from run to run.
 // For these drivers, waits are therefore neither counted nor compared.
-void add_counted(std::string_view assembly, std::map<std::string, double>& statistics) {
+void add_counted(std::string_view assembly, bool reported,
+                 std::map<std::string, double>& statistics) {
   const auto counts = count_amd_instructions(assembly);
   if (!counts) return;
-  const bool reported = counts_instructions(statistics);
   const auto number_of = [&](const InstructionCounts& counted) {
     return reported ? counted.all() : counted.all() - counted.wait;
   };
@@ -61,7 +61,7 @@ void CompiledCode::add(const std::string& name, std::map<std::string, double> st
   record::Executable executable{.statistics = std::move(statistics)};
   if (!assembly.empty()) {
     const bool reported = counts_instructions(executable.statistics);
-    add_counted(assembly, executable.statistics);
+    add_counted(assembly, reported, executable.statistics);
     executable.assembly = core::content_hash(reported ? assembly : without_waits(assembly));
     compiled_.listings.emplace(executable.assembly, std::move(assembly));
   }

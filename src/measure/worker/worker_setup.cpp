@@ -26,6 +26,14 @@ void keep_shaders_apart(std::vector<std::string>& environment) {
   environment.push_back(fmt::format("{}={{cache}}/mesa", name));
 }
 
+// Returns the variables that override the environment of a counted worker, and of the worker that
+// compiles for it.
+std::vector<std::string> counted_overrides(const SideOptions& side) {
+  std::vector<std::string> overrides = side.environment;
+  for (const std::string_view each : counting_environment()) overrides.emplace_back(each);
+  return overrides;
+}
+
 }  // namespace
 
 std::string cache_name(const SideOptions& side, bool counted) {
@@ -41,9 +49,8 @@ WorkerSetup worker_setup(const SideOptions& side, bool counted, const CacheFolde
                     .command = side.command,
                     .environment = {},
                     .limit = counted ? counted_limit : limit};
-  std::vector<std::string> overrides = side.environment;
+  std::vector<std::string> overrides = counted ? counted_overrides(side) : side.environment;
   if (counted) {
-    for (const std::string_view each : counting_environment()) overrides.emplace_back(each);
     if (const auto* emulator = std::get_if<Emulator>(&find_emulator())) {
       setup.command = emulated(*emulator, std::move(setup.command), cache.path().string());
       overrides.insert(overrides.end(), emulator->environment.begin(), emulator->environment.end());
@@ -64,8 +71,7 @@ std::optional<WorkerSetup> ahead_setup(const SideOptions& side, const CacheFolde
                                        std::chrono::milliseconds limit) {
   const auto compiling = compiles_for_emulator(side.device);
   if (!compiling || !std::holds_alternative<Emulator>(find_emulator())) return std::nullopt;
-  std::vector<std::string> overrides = side.environment;
-  for (const std::string_view each : counting_environment()) overrides.emplace_back(each);
+  std::vector<std::string> overrides = counted_overrides(side);
   overrides.insert(overrides.end(), compiling->begin(), compiling->end());
   return WorkerSetup{.device = side.device,
                      .command = side.command,

@@ -74,7 +74,7 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsReportedFirst) {
 // The slowdown is 0.75 % of the frame's cost, and occurs only in the driver, which causes 30 % of
 // the cost. The slowdown exceeds the sum of the two devices' bounds on driver jitter, so it is
 // found.
-TEST(AcceptedDevices, HalfAPercentInTheDriverIsFoundOnPocl) {
+TEST(AcceptedDevices, ASlowdownOfTheDriverIsFoundOnPocl) {
   CorrelationWorld world(3);
   world.add_device(lavapipe, true);
   world.add_device(pocl, true, 0.02, {}, on_configuration(chosen, 1 + 0.0075 / 0.3));
