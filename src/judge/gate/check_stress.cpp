@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "judge/gate/run_view.hpp"
 #include "judge/stress/stress.hpp"
@@ -41,6 +44,16 @@ Finding judge(const RunView& view, const StressScored& scored) {
                        accepted ? Advised{} : view.accept());
 }
 
+// Returns whether a planned configuration has no record on one of the devices, because the run was
+// interrupted or is still going on. Such a configuration is reported as missing.
+bool is_unfinished(const RunView& view, const std::vector<record::Record>& records) {
+  const std::size_t planned = view.store.planned(view.run).size();
+  std::map<std::string, std::size_t> there;
+  for (const record::Record& record : records) ++there[record.device];
+  return std::ranges::any_of(there,
+                             [planned](const auto& device) { return device.second < planned; });
+}
+
 }  // namespace
 
 std::vector<Finding> check_stress(const RunView& view) {
@@ -56,7 +69,8 @@ std::vector<Finding> check_stress(const RunView& view) {
   std::vector<record::Record> all = view.store.records(view.records.front().run);
   std::erase_if(all,
                 [&](const record::Record& record) { return record.plan != view.request.plan; });
-  const StressTruths truths{view.request.truth, view.request.expectations, view.request.part};
+  const StressTruths truths{view.request.truth, view.request.expectations,
+                            view.request.part || is_unfinished(view, all)};
   for (const StressScored& scored : score_stress(view.store, all, truths)) {
     if (view.devices.contains(scored.record->device)) findings.push_back(judge(view, scored));
   }

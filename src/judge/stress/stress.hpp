@@ -20,8 +20,8 @@ using FindExpectations = std::function<std::vector<record::Expectation>(const re
 struct StressTruths {
   FindTruth truth;
   FindExpectations expectations;  // if this function is empty, there are no expectations
-  // Whether the records are only a part of a plan. In this case, an expectation is not checked if
-  // it needs another record that is not in this part.
+  // Whether the records are only a part of a plan, or of an unfinished run. In this case, an
+  // expectation is not checked if it needs another record that is not in this part.
   bool part = false;
 };
 

@@ -204,6 +204,26 @@ TEST_F(StressGateTest, APartOfAPlanNeedsNoOtherImages) {
   EXPECT_EQ(with(gate("a"), Verdict::pass, Check::stress).size(), 12U);
 }
 
+// If a run was interrupted, the missing configuration is reported, and costs no other configuration
+// a point.
+TEST_F(StressGateTest, AnInterruptedRunLosesNoPointsForImagesThatAreStillMissing) {
+  add_run("a");
+  accept_scores("a");
+  expected_ = [](const record::Record&) {
+    return std::vector<record::Expectation>{
+        {"the bits with another skip", record::SamePicture{.changed = {{"skip", "distance"}}}}};
+  };
+  std::vector<std::string> planned;
+  for (const record::Record& record : store_.records("a")) planned.push_back(record.configuration);
+  store_.begin("a", {}, planned);
+  EXPECT_EQ(with(gate("a"), Verdict::regression, Check::stress).size(), 12U);
+  planned.push_back("camera=side,data=ball,skip=distance,technique=raycast");
+  store_.begin("a", {}, planned);
+  const GateResult result = gate("a");
+  EXPECT_EQ(with(result, Verdict::pass, Check::stress).size(), 12U);
+  EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge) << text(result);
+}
+
 TEST_F(StressGateTest, MoreSamplesThanAllowedLoseAPoint) {
   expected_ = [](const record::Record&) {
     return std::vector<record::Expectation>{
