@@ -37,10 +37,11 @@ StepError longest_step(double error, const StepLimits& limits, const ErrorOfStep
 
 StepError shortened_step(double step, double error, const StepLimits& limits,
                          const ErrorOfStep& error_of) {
-  // The new step is a little shorter than required for an error of second order. The minimum
-  // shortening ensures that the search ends.
+  // In each iteration, the step is multiplied by a factor. The factor is a little smaller than
+  // required for an error of second order. It is at most `least_shortening`, so that the search
+  // ends, and at least `most_shortening`.
   constexpr double margin = 0.97;
-  constexpr double least_shortening = 0.84;  // the minimum shortening, a quarter of an octave
+  constexpr double least_shortening = 0.84;  // a quarter of an octave: about 2^(−1/4)
   constexpr double most_shortening = 1.0 / 16;
   for (;;) {
     const double found = error_of(step);

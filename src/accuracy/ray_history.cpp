@@ -27,8 +27,8 @@ struct Light {
 };
 
 // Returns whether the light after a sample follows from the recorded light before it. The tolerance
-// of 4·2⁻²³ of the operands is more than the roundings of one multiplication and one addition and
-// of the recorded floats.
+// is 4·2⁻²³ of the operands. It exceeds the sum of the rounding errors of one multiplication, one
+// addition, and the conversion of the recorded numbers to float.
 bool is_composited(const Light& before, const TakenSample& taken) {
   const double weight = before.transmittance * taken.opacity;
   const double slack = 4 * recorded * before.transmittance;

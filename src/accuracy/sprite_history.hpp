@@ -57,7 +57,7 @@ struct SpriteHistory {
   std::optional<std::size_t> first;  // the first row that differs
   // If the pixel is wrong but no row is wrong, these are the ids of the smallest set of spheres
   // that was found for which the pixel is wrong. Unless `stopped_early`, the pixel is correct if
-  // any part of the set is left out.
+  // any one sphere of the set is left out.
   std::vector<std::uint32_t> fewest;
   SurfaceDifference fewest_differs = SurfaceDifference::none;
   bool stopped_early = false;

@@ -13,8 +13,8 @@
 namespace triptych::core {
 
 // The exit code of the program. If several apply, the program returns the most severe one; see
-// worse_of() in core/exit_code.hpp. `skip` has the value that CTest expects for its property
-// SKIP_RETURN_CODE.
+// worse_of() in core/exit_code.hpp. `skip` is the value of the CTest property SKIP_RETURN_CODE of
+// Triptych's tests, so CTest reports a test that exits with this code as skipped.
 enum class ExitCode : int { pass = 0, regression = 1, cannot_judge = 2, usage = 3, skip = 77 };
 
 // The base class of all errors of this project. what() is a single line, ready to be printed.

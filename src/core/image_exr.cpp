@@ -65,9 +65,10 @@ class MemoryIn : public Imf::IStream {
   std::size_t place_ = 0;
 };
 
-// Describes the memory layout of an image to OpenEXR. Pixel (0, 0) of the image corresponds to (x,
-// y), the corner of the data window. However, OpenEXR expects the address that a pixel at the
-// origin of the coordinate system would have.
+// Describes the memory layout of an image to OpenEXR. The first pixel of the image has the OpenEXR
+// coordinates (x, y), the corner of the data window. However, OpenEXR expects the address that the
+// pixel with the coordinates (0, 0) would have, even if there is no such pixel. slice() computes
+// this address.
 class Planes {
  public:
   Planes(const Image& image, int x, int y)
@@ -223,8 +224,8 @@ Image decode(std::span<const std::byte> bytes) {
   return image;
 }
 
-// Joins the lines of an OpenEXR message, because what() of this project's errors must be a single
-// line.
+// Like decode(bytes), but converts exceptions to an InputError for `place`. Joins the lines of
+// their messages, because what() of this project's errors must be a single line.
 Image decode(std::span<const std::byte> bytes, const FilePlace& place) {
   try {
     return decode(bytes);

@@ -25,7 +25,7 @@ enum class Verdict : std::uint8_t {
   improved,      // a pass that is significantly better than the baseline
   advisory,      // does not affect the verdict: times, comparison with another driver version
   skipped,       // not checked, for example because the device does not support it; see the cause
-  waived,        // a known regression, listed in waivers.json or in a file of expectations
+  waived,        // a known regression, listed in waivers.json or in the file for `--expect`
   cannot_judge,  // a baseline or a measurement is missing, or the data changed; never a pass
   regression
 };
@@ -38,7 +38,7 @@ enum class Cause : std::uint8_t {
   none,
 
   // Causes that several checks share.
-  as_stored,           // the values equal the stored values ["values"; names: not compared]
+  as_stored,           // the values are as stored ["values": how many; names: values not compared]
   values_changed,      // values differ from the stored values [changes]
   unknown_values,      // values have no stored counterpart [names]
   not_stored,          // nothing is stored for some configurations [names]
@@ -56,14 +56,14 @@ enum class Cause : std::uint8_t {
   listing_failed,      // a process crashed or hung during device enumeration [<what>, reason]
   no_description,      // the run has records of a device that it does not describe [<run>]
   checks_lost,         // the baselines contain checks that the plan no longer requests [names]
-  missing,             // configurations have no record [names; "wanted": number required; <kind>]
+  missing,             // "missing" of "wanted" configurations have no record [names, <kind>]
   extra,               // the run has configurations that are not in the plan [names]
   other_plan,          // the run measured another version of the plan [<run> <plan> <hash> <now>]
   other_data,          // the data differ from the accepted data [<hash> <accepted>]
   data_changed,        // the data have changed since they were measured [<hash> <now>]
   no_baselines,        // there are no baselines [<folder>]
   nothing_decided,     // no check reached a verdict for the device
-  device_fault,        // a fault outside of configurations [<kind> <subject> <last_words>, detail]
+  device_fault,        // see record/device_fault.hpp [<kind> <subject> <last_words>, detail]
   unused_waiver,      // a waiver has expired and excuses nothing [<test> <device> <expiry>, detail]
   waiver_of_no_test,  // a waiver matches no test [<test>]
 
@@ -102,7 +102,7 @@ enum class Cause : std::uint8_t {
   times,        // the times of all configurations on a device ["ratio": the median, "worst_ratio"]
   other_clock,  // the stored times were measured by another clock [names]
   no_time,
-  same_frames,  // not timed, because an equivalent configuration was timed instead [reason]
+  same_frames,  // not timed, because a configuration with the same work was timed instead [reason]
   wrong_image,  // the time is meaningless, because the image is wrong [because: its errors]
 
   // Causes that concern correlations.
@@ -123,12 +123,12 @@ enum class Cause : std::uint8_t {
   order,              // the order of convergence ["order" "half_width" "stored_order" …]
   no_order,           // an order can no longer be fitted ["stored_order" "stored_half_width"]
 
-  // Causes that concern stress cases.
+  // Causes that concern stress cases (scenes on which renderers often fail).
   score,  // the points of a case ["score" "accepted"; because: the reasons for lost points]
   farther_device,  // <other> draws a different image, closer to the reference ["rms" "allowed"]
   pixels_differ,   // the image should equal the image with <levels>, but differs from it
   no_other_image,  // the image with <levels> that an expectation needs is missing
-  not_inside,      // the image does not lie inside the image with <levels>
+  not_inside,      // the image should equal a part of the image with <levels>, which is too small
   other_colour,    // a pixel does not have the expected colour
   not_counted,     // a counter that an expectation needs is missing [<counter> <levels>]
   count_too_large  // a count exceeds "factor" times "unit" [<counter> <of> <levels> "count"]
@@ -186,7 +186,8 @@ struct Change {
 struct Observation {
   Cause cause = Cause::none;
   Against against = Against::nothing;
-  std::map<std::string, double> numbers = {};  // finite; each name contains the unit
+  // Finite numbers by name. If a number has a unit, the name ends with it, as in "median_ns".
+  std::map<std::string, double> numbers = {};
   std::vector<Change> changes = {};
   std::vector<std::string> names = {};            // names of configurations, values or devices
   std::map<std::string, std::string> facts = {};  // identifiers, such as hashes and versions
@@ -205,7 +206,8 @@ struct Observation {
 // represent them.
 void set_number(Observation& what, const std::string& name, double value);
 
-// The effect of a waiver or a file of expectations on a finding.
+// The effect of a waiver, or of a file of expectations (the list of known failures for `validate
+// --expect`), on a finding.
 struct Excuse {
   enum class Of : std::uint8_t {
     nothing,

@@ -10,7 +10,7 @@
 namespace triptych::record {
 
 enum class Check : std::uint8_t {
-  image,        // the image, compared with the reference image within a derived bound
+  image,        // the image, which may differ from the reference image by at most its bound
   counters,     // Triptych's own counters, compared exactly
   statistics,   // the driver's pipeline statistics, compared exactly within a driver version
   cost,         // instructions per frame, compared within a driver version
@@ -19,7 +19,7 @@ enum class Check : std::uint8_t {
   timing,       // frame times, which affect the verdict only if the user requests it
   correlation,  // the cost on one device as a function of the cost on another device
   accuracy,     // orders of convergence, and the error as a function of run time
-  stress        // scores for stress scenes
+  stress        // scores for stress scenes, on which renderers often fail
 };
 [[nodiscard]] std::string_view name_of(Check check);
 [[nodiscard]] Check check(std::string_view name);  // throws InputError

@@ -1,7 +1,7 @@
 #pragma once
-// Conditions that a stress case must satisfy in addition to its error bound: relations between its
-// image and other images, and limits for its counters. A suite declares them as data, and the judge
-// (src/judge) checks them.
+// Conditions that a stress case (a scene on which renderers often fail) must satisfy in addition to
+// its error bound: relations between its image and other images, and limits for its counters. A
+// suite declares them as data, and the judge (src/judge) checks them.
 
 #include <array>
 #include <map>

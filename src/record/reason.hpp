@@ -30,7 +30,7 @@ enum class Outcome : std::uint8_t {
 // backticks are other members of Reason.
 enum class Cause : std::uint8_t {
   none,              // the configuration was measured
-  same_frames,       // the frames were copied from an equivalent configuration
+  same_frames,       // the frames were copied from a configuration that does the same work
   not_supported,     // the device, driver or technique lacks the feature in `detail`
   bad_input,         // a broken file, or factor levels that contradict each other
   no_emulator,       // instructions cannot be counted on this machine
@@ -57,7 +57,7 @@ enum class Cause : std::uint8_t {
 enum class Stage : std::uint8_t {
   working,   // working on the configuration itself
   opening,   // opening the device
-  counting,  // counting the configuration's instructions under the emulator
+  counting,  // counting the configuration's instructions in an emulator
 };
 [[nodiscard]] std::string_view name_of(Stage stage);
 [[nodiscard]] Stage stage(std::string_view name);  // throws InputError
@@ -65,7 +65,7 @@ enum class Stage : std::uint8_t {
 struct Reason {
   Cause cause = Cause::none;
   Stage stage = Stage::working;
-  std::map<std::string, double> numbers = {};  // values by name; each name includes the unit
+  std::map<std::string, double> numbers = {};  // by the names that the comments on Cause state
   std::string subject = {};                    // the name of an API call, a device, a data set, …
   std::string code = {};                       // the error code of an API call
   // The configuration was not attempted, because other configurations with the levels

@@ -80,8 +80,9 @@ struct Record {
   std::string run;  // Run::id of the run to which this record belongs
   std::string suite;
   std::string plan;  // "volume/quick", or the name of the plan's file without extension
-  std::string
-      configuration;  // canonical "factor=value,…" of all factors that differ from their defaults
+  // Canonical "factor=value,…" of technique, data, camera, and all other factors that differ from
+  // their defaults.
+  std::string configuration;
   std::string scene;  // canonical list of the factors that determine the image
   std::string technique;
   std::string device;                          // Device::id

@@ -15,7 +15,8 @@ struct Record;
 // sorted by name. The names of two factors are abbreviated: step is `s`, and viewport is `v`. The
 // name depends only on the arguments, so it stays the same when a plan changes. It contains only
 // letters, digits, '_' and '.'. All configurations of a plan have different names, unless two
-// values differ only in characters that a name cannot contain, or in a file name extension.
+// values differ only in separators such as ':' and '/', all of which become '_', or in a file name
+// extension.
 [[nodiscard]] std::string short_name(std::string_view suite, std::string_view plan,
                                      std::string_view configuration);
 [[nodiscard]] std::string short_name(const Record& record);

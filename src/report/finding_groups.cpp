@@ -133,7 +133,8 @@ double severity_of(const Finding& finding) {
   return largest;
 }
 
-// Returns the finding with the larger error, or `a` if both are equal. Both may be nullptr.
+// Returns the finding with the larger error, or `a` if the errors are equal. If one of the pointers
+// is nullptr, returns the other pointer.
 const Finding* worse_of(const Finding* a, const Finding* b) {
   if (a == nullptr || b == nullptr) return a == nullptr ? b : a;
   return severity_of(*b) > severity_of(*a) ? b : a;

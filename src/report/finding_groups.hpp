@@ -26,7 +26,7 @@ struct Blame {
 // Findings with the same cause. Contains pointers into the array of findings passed to grouped().
 struct FindingGroup {
   const judge::Finding* first;     // the finding about the smallest case: fewest pixels, least data
-  std::size_t configurations = 1;  // if there are several devices, on any of them
+  std::size_t configurations = 1;  // number of configurations with this cause on any device
   // The factor levels that distinguish the configurations of this group from the other
   // configurations that were checked on the device: "technique=raycast, step=0.5" or
   // "technique≠tiles". Empty if there are no such levels.
@@ -67,8 +67,8 @@ struct FindingGroup {
 // abnormally, the check and the techniques may differ.
 [[nodiscard]] bool have_one_cause(const FindingGroup& a, const FindingGroup& b);
 
-// Adds another group with the same cause. Returns true if the smallest case of that group became
-// the smallest case of the result.
+// Adds the findings of `other`, which has the same cause, to `group`. Returns true if the smallest
+// case of `other` became the smallest case of `group`.
 bool take_in(FindingGroup& group, const FindingGroup& other);
 
 // Returns whether the finding needs attention: it is a regression, or could not be judged.

@@ -1,6 +1,7 @@
 #pragma once
 // Reads baselines/absent.json, the list of devices that are absent from certain machines on
-// purpose. Changes to this file are reviewed like changes to waivers.
+// purpose. Changes to this file are reviewed like changes to waivers.json, the list of known
+// failures.
 
 #include <filesystem>
 #include <string>

@@ -33,9 +33,9 @@ void update_image(const record::Record& record, const core::Image& reference, Ne
   next.files[name] = std::move(bytes);
 }
 
-// Updates the hashes of the reference images in images.json. Images are large, so the images
-// themselves are stored only for plans that check both images and times, because reports show
-// stored images only for such plans.
+// Updates the hashes of the reference images in images.json. The images themselves are large, so
+// they are stored only for plans that check both images and times (the quick plan of each suite).
+// For these plans, the gate also compares the devices' images with the stored images.
 void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
   const bool keeps =
       accepted.checks.contains(Check::image) && accepted.checks.contains(Check::timing);

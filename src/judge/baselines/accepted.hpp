@@ -40,8 +40,9 @@ struct Accepted {
 // the current data, so the baselines would combine measurements of the old data with a reference
 // image of the new data.
 void refuse_other_data(const Accepted& accepted, const AcceptRequest& request);
-// Rejects a shard, a run with --set and an interrupted run, because accepting such a run would
-// delete the other configurations of the plan from the baselines.
+// Rejects a shard (one of several parts of a plan), a run with --set and an interrupted run,
+// because accepting such a run would delete the other configurations of the plan from the
+// baselines.
 void refuse_part(const Accepted& accepted, const Baselines& stored, const std::string& run,
                  const AcceptRequest& request);
 // Rejects an interrupted run even if there are no baselines yet, because the baselines would cover

@@ -111,8 +111,8 @@ void update_errors(const record::Store& store, const Accepted& accepted,
   }
 }
 
-// Writes the score of each configuration on each device of the run, including configurations that
-// failed.
+// Writes the score of each stress case (a scene on which renderers often fail) on each device of
+// the run, including cases that failed.
 void update_scores(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
@@ -132,9 +132,10 @@ record::Counts kept_of(record::Counts cost) {
   return cost;
 }
 
-// Writes the instruction counts. Counts from another emulator are not comparable with the stored
-// counts, so they must replace all stored counts of the device. Rejects such counts with --only,
-// which would replace only some of the stored counts.
+// Writes the instruction counts. Counts from another emulator (the program that counts
+// instructions) are not comparable with the stored counts, so they must replace all stored counts
+// of the device. Rejects such counts with --only, which would replace only some of the stored
+// counts.
 void update_cost(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::cost(device));
   bool counted = false;

@@ -26,7 +26,7 @@ struct FrameChange {
 };
 
 // Compares the counts of `now` with the counts `before`, with the tolerances of cost_tolerance.hpp.
-// The tolerances are valid only for counts from the same emulator, program and driver.
+// The tolerances are valid only for counts of the same program and driver by the same emulator.
 [[nodiscard]] FrameChange frame_change(const record::Record& now, const record::Counts& before);
 
 }  // namespace triptych::judge

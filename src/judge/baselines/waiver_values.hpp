@@ -1,5 +1,6 @@
 #pragma once
-// Reads and checks the fields that waivers and entries for absent devices have in common.
+// Reads and checks the fields that two kinds of entries have in common: waivers, which excuse known
+// failures, and entries for devices that are absent on purpose.
 
 #include <initializer_list>
 #include <optional>

@@ -70,9 +70,10 @@ estimation::RobustLine fit_of(const Values& x, const Values& y) {
   return fit;
 }
 
-// Sets the weights of the configurations on one side, which is inside or outside a level. The
-// weights depend on the deviations from the median of this side, so that the configurations of a
-// level that is shifted as a whole do not count as outliers.
+// Sets the weights of the configurations in `side`, which are either all configurations that have a
+// factor level or all that do not have it. The weights depend on the deviations from the median
+// residual of `side`, which are returned in `centred`. Therefore, if a level shifts the residuals
+// of all its configurations, they do not count as outliers.
 void weigh_side(const Values& residuals, const std::vector<std::size_t>& side, double scale,
                 Values& weights, Values& centred) {
   Values values;

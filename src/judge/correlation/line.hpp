@@ -20,8 +20,8 @@ struct LineModel {
   static constexpr double least_slope = 0.7;
   static constexpr double largest_slope = 1.3;
   static constexpr double largest_scale = 0.25;
-  // The scatter about a line is assumed to be at least this share of the cost, because costs are
-  // not reproducible more exactly than that.
+  // The scatter about a line is assumed to be at least this share of the cost, because repeated
+  // measurements of the same cost may differ by this share.
   static constexpr double least_scale = 5e-4;
   // Conditions under which a factor level or a configuration is reported.
   // The expected share of false findings (Benjamini and Hochberg). It applies to levels and to

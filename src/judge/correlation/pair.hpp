@@ -52,7 +52,8 @@ struct CorrelationPair {
   std::string device_a;
   std::string device_b;
   std::string signal;  // "cost": instructions per frame; "time": nanoseconds per frame
-  // For costs: whether device_b has no stored costs, so that only the line can reveal a problem.
+  // For costs: whether device_a has stored costs and device_b has none, so that only the line can
+  // reveal a problem of device_b.
   bool new_device = false;
   CorrelationLine line = {};
   std::vector<CorrelationPoint> points = {};  // one for each configuration

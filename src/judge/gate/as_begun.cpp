@@ -75,10 +75,10 @@ std::map<std::string, std::string> ids_of_drivers(const Manifest& manifest) {
   return ids;
 }
 
-// Returns whether a missing device must be reported. A plan that only compiles reports a missing
-// device only if another device of the same driver is present, because a machine need not have
-// compilers for GPUs that it does not have. In the id of a device that only compiles, the part
-// before the last '-' names the driver.
+// Returns whether a missing device must be reported. If a plan only compiles code, for GPUs that
+// need not be present, a missing device is reported only if another device of the same driver was
+// found, because the driver's compilers need not be installed on every machine. In the id of a
+// device that only compiles, the part before the last '-' names the driver.
 bool is_expected(const RunView& view, const std::string& id,
                  const std::vector<std::string>& found) {
   if (view.checks != std::set{Check::code}) return true;

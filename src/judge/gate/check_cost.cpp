@@ -1,7 +1,8 @@
 // Compares the instruction counts of each frame with the counts that are stored for the same driver
-// version and the same emulator. The instructions of device code, the instructions of the driver,
-// and the cache misses can each cause a regression. Allocations and the cost of preparation, which
-// is everything before the first frame, are only shown.
+// version and the same emulator (the program that counts instructions). The instructions of device
+// code, the instructions of the driver, and the cache misses can each cause a regression.
+// Allocations and the cost of preparation, which is everything before the first frame, are only
+// shown.
 
 #include <algorithm>
 #include <cmath>

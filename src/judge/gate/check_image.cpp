@@ -162,8 +162,8 @@ class SceneJudge {
   std::optional<ReferenceHash> reference_;  // the hash of that image, if only the hash is stored
   bool truth_checked_ = false;
   std::vector<Picture> pictures_;
-  // The error bound of a particle scene. An id of 0 in it means that rounding cannot change which
-  // particle the pixel shows.
+  // The error bound of a particle scene. Its `ids` are flags: 0 means that rounding cannot change
+  // which particle the pixel shows.
   core::Image bound_;
 };
 

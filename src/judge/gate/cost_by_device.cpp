@@ -20,8 +20,9 @@ std::optional<FrameCost> frame_cost(const record::Counts& counts) {
   return cost.sum() > 0 ? std::optional(cost) : std::nullopt;
 }
 
-// Returns whether the record was measured itself, not copied from an equivalent configuration.
-// Copies are left out, because otherwise the same frames would be counted several times.
+// Returns whether the record was measured itself, not copied from another configuration that does
+// the same work. Copies are left out, because otherwise the same frames would be counted several
+// times.
 bool stands_for_itself(const record::Record& record) {
   return record.same_as.empty();
 }

@@ -20,8 +20,9 @@ bool is_right(Verdict verdict) {
   return verdict == Verdict::pass || verdict == Verdict::improved || verdict == Verdict::advisory;
 }
 
-// Returns the result that the file of expectations should contain for this finding. nullopt means
-// that the configuration should pass and needs no entry.
+// Returns the result that the file of expectations (the list of known failures that `validate`
+// writes) should contain for this finding. nullopt means that the configuration should pass and
+// needs no entry.
 std::optional<Known> expected_as(const Finding& finding) {
   if (finding.verdict == Verdict::skipped) return Known::skip;
   if (finding.verdict == Verdict::regression) {
@@ -47,7 +48,8 @@ Finding right_again(const Finding& finding) {
 
 // Merges a regression with the result of the second attempt. If the second attempt has no finding
 // of this check for the configuration, it passed. This is the case for a technique without a
-// meaningful image, such as speed_of_light, which has a finding only if drawing fails.
+// meaningful image, such as speed_of_light (which only fetches voxels), because such a technique
+// has a finding only if drawing fails.
 void tell_again(const Finding& finding, Redrawn& redrawn) {
   std::vector<Finding>& findings = redrawn.result.findings;
   const auto again = std::ranges::find_if(findings, [&](const Finding& each) {

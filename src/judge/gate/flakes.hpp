@@ -29,9 +29,9 @@ struct Redrawn {
 // again.
 [[nodiscard]] Redrawn tell_flakes(const GateResult& first, GateResult second, const Places& places);
 
-// Returns the entries of a new file of expectations: all failures, flakes and skips in the results,
-// except those that waivers.json excuses. `reason_of` returns the reason that is written for a
-// human reader.
+// Returns the entries of a new file of expectations (the list of known failures that `validate`
+// writes): all failures, flakes and skips in the results, except those that waivers.json excuses.
+// `reason_of` returns the reason that is written for a human reader.
 [[nodiscard]] std::vector<Waiver> as_expected(
     std::span<const GateResult> results,
     const std::function<std::string(const Finding&)>& reason_of);

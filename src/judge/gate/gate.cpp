@@ -92,8 +92,8 @@ bool measured_before(const RunView& view, const record::Record& record) {
   return code != nullptr && code->configurations.contains(record.configuration);
 }
 
-// Reports each unmeasured record only once, under the first requested check. A stress case
-// that failed is left out, because its score reports the failure.
+// Reports each unmeasured record only once, under the first requested check. A stress case (a scene
+// on which renderers often fail) that failed is left out, because its score reports the failure.
 void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
   const Check check = *view.checks.begin();
   const bool scored = view.checks.contains(Check::stress);

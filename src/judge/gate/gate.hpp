@@ -26,7 +26,7 @@ namespace triptych::judge {
 struct GateResult {
   std::string plan;
   std::string run;
-  std::vector<Finding> findings;  // the worst first, then by device and configuration
+  std::vector<Finding> findings;  // in the order of sort_findings() (gate/run_view.hpp)
   // The errors against the limit images (the images with exact ray integrals), one entry for each
   // scene on each device.
   std::vector<accuracy::AccuracyScene> accuracies = {};

@@ -94,12 +94,13 @@ void report_as_begun(const RunView& view, std::vector<Finding>& findings);
 // record.
 [[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);
 
-// Changes regressions that waivers.json excuses to `waived`, and reports waivers that have expired
-// or match no test.
+// Changes regressions that waivers.json excuses to `waived`. Reports waivers that have expired and
+// excuse nothing, and waivers that match no test.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 
 // Compares findings with GateRequest::known. A known failure becomes `waived`, a pass that is
-// listed as a failure becomes `improved`, and a skip that is not listed becomes `cannot_judge`.
+// listed as a failure or as a skip becomes `improved`, and a skip that is not listed becomes
+// `cannot_judge`.
 void apply_known(const RunView& view, std::vector<Finding>& findings);
 
 }  // namespace triptych::judge

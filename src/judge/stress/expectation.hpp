@@ -1,5 +1,6 @@
 #pragma once
-// Checks whether a record of a stress case meets its expectations.
+// Checks whether a record of a stress case (a scene on which renderers often fail) meets its
+// expectations: conditions such as equality with the image of another case.
 
 #include <map>
 #include <optional>

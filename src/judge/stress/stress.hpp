@@ -1,6 +1,7 @@
 #pragma once
-// Scores a stress case on a device: one point for drawing an image, one point if the image is
-// correct, and one point if it agrees with the images of other devices.
+// Scores a stress case (a scene on which renderers often fail) on a device: one point for drawing
+// an image, one point if the image is correct, and one point if it agrees with the images of other
+// devices.
 
 #include <functional>
 #include <string>

@@ -293,8 +293,8 @@ std::vector<Gap> gaps_of(const Store& store) {
   const auto is_empty = [](const Run& run) {
     return run.configurations == 0 && !run.begun.empty();
   };
-  // A shard of several plans may contain no configurations of the small plans, but it must contain
-  // configurations of at least one plan.
+  // A shard (one of n parts) of several plans may contain no configurations of the small plans, but
+  // it must contain configurations of at least one plan.
   if (!runs.empty() && std::ranges::all_of(runs, is_empty)) {
     for (const Run& run : runs) gaps.push_back({run.plan, "", 0, 0});
   }

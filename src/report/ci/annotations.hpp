@@ -1,5 +1,5 @@
 #pragma once
-// Annotations for commits, as CI systems show them.
+// Formats findings as annotations, which CI systems attach to lines of a commit.
 
 #include <span>
 #include <string>

@@ -87,8 +87,8 @@ std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device
            .command = {"test-check", argument, "--check", check, "--device", device.id, "--store",
                        store},
            .labels = {suite, check, "device", device.api, device.id},
-           // The checks `stress` and `correlation` compare a device with all other devices, so all
-           // of them must have been measured.
+           // The checks `stress` and `correlation` compare each device with the other devices, so
+           // all devices must have been measured.
            .requires_fixtures = is_of_all(each) ? measured : std::vector<std::string>{fixture}});
     }
   }

@@ -15,8 +15,8 @@ namespace triptych::report {
 // Returns a code block with a command. No characters in the command can close the block.
 [[nodiscard]] std::string fenced(std::string_view command, std::string_view indent);
 
-// Returns a summary for a pull request, with the rows and causes that the terminal output also ends
-// with (screen/last_screen.hpp). The worst causes are visible, and all others are folded. The
+// Returns a summary for a pull request. It has the same rows and causes as the end of the terminal
+// output (screen/last_screen.hpp). The worst causes are visible, and all others are folded. The
 // summary always has fewer than 65,000 characters.
 [[nodiscard]] std::string markdown(std::span<const judge::GateResult> results);
 [[nodiscard]] std::string markdown(const judge::GateResult& result);

@@ -25,8 +25,9 @@ namespace triptych::report {
 
 // Returns {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences"
 // (between the devices), "configurations": [{"configuration", "reason", "differences", "work"; if
-// times were compared: "verdict", "ratio", "ratio_low", "ratio_high", "blocks", "process_runs",
-// "frames_per_batch", "clock", "why_wall", "seconds", "settle"}]}. Unknown values are left out.
+// times were compared: "verdict", "a", "b" (median and quartiles of the frame times), "ratio",
+// "ratio_low", "ratio_high", "blocks", "process_runs", "frames_per_batch", "clock", "why_wall",
+// "seconds", "settle" (a command, if the verdict is undecided)}]}. Unknown values are left out.
 [[nodiscard]] core::Json to_json(const comparison::ComparisonResult& result,
                                  const ComparisonCommand& command);
 

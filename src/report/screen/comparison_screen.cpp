@@ -23,7 +23,7 @@ std::string_view name_of(measure::SideClock clock) {
   return clock == measure::SideClock::device ? "device" : "wall";
 }
 
-// Formats a shift as "1.052 [1.047, 1.058]".
+// Formats the time ratio of b to a and its confidence interval as "1.0520 [1.0470, 1.0580]".
 std::string ratio_of(const comparison::Shift& shift) {
   return fmt::format("{:.4f} [{:.4f}, {:.4f}]", std::exp(shift.estimate),
                      std::exp(shift.interval.low), std::exp(shift.interval.high));

@@ -25,7 +25,7 @@ std::string text_of(const SideBySide::Cell& cell) {
 }
 
 // Returns whether a user can choose this technique to draw images. speed_of_light, for example,
-// draws none.
+// only fetches voxels and draws no image.
 bool is_a_choice(const std::string& technique) {
   return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
     return each.id == technique && !each.picture;

@@ -26,7 +26,8 @@ namespace triptych::report::words {
 [[nodiscard]] std::string text_of(comparison::WallClockCause cause);
 // States what only one side has: "plan volume/quick exists only in a".
 [[nodiscard]] std::string text_of(const comparison::OnlyOne& only);
-// Describes the measurement that is in progress: "fresh process run 2 of 5".
+// Describes the measurement that is in progress: "fresh process run 2 of 5". A process run is the
+// lifetime of one worker process.
 [[nodiscard]] std::string stage_of(const comparison::ComparisonProgress& progress);
 
 // States that nothing could be compared. `first` is the reason why the first configuration was not

@@ -1,4 +1,5 @@
-// Sentences about images, including the images of stress cases.
+// Sentences about images, including the images of stress cases (scenes on which renderers often
+// fail).
 
 #include <fmt/format.h>
 
