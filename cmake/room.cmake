@@ -68,9 +68,9 @@ function(triptych_patience seconds out)
   set(${out} ${patience} PARENT_SCOPE)
 endfunction()
 
-# Compiles the code of a test without optimization, because most tests spend little time in their own code. Tests that draw or
-# compute reference images are compiled with OPTIMIZED. Otherwise they would take longer, because the linker may keep the
-# unoptimized template instances from a test instead of those from a room.
+# Compiles the code of a test without optimization, because most tests spend little time in their own code. With the argument
+# OPTIMIZED, the code is compiled with -O1. This is used for tests that draw or compute reference images. Otherwise they would
+# take longer, because the linker may keep the unoptimized template instances from a test instead of those from a room.
 function(triptych_test_code target)
   triptych_batch(${target})
   set(level -O0)

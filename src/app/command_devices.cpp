@@ -21,9 +21,9 @@ std::string why(const measure::Broken& broken) {
   return broken.ended ? text_of(*broken.ended) : broken.reason;
 }
 
-// The devices that were opened (`greeted`), the devices that cannot be used (`broken`), and the ids
-// of devices that only compile code, for a GPU that is not present, and were not opened
-// (`compilers`).
+// `greeted` contains the devices that were opened, and `broken` the devices that cannot be used.
+// `compilers` contains the ids of devices that only compile code, for GPUs that are not present,
+// and that were not opened.
 struct Devices {
   std::vector<Greeting> greeted;
   std::vector<measure::Broken> broken;

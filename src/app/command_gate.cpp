@@ -78,7 +78,7 @@ std::vector<std::string> gate_job() {
 
 // Returns the plans to judge, in their current definition. If the user names no plans, leaves out
 // the default plans that have none of the requested checks. `--without cost` also leaves out the
-// plans that count instructions, and `--without code` the plans that only compile.
+// plans that count instructions, and `--without code` the plans that only compile code.
 std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
   record::Checks asked;
   for (const std::string& name : arguments.checks) asked.insert(record::check(name));

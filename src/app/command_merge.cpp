@@ -126,8 +126,8 @@ core::ExitCode merge(const MergeArguments& arguments) {
         "plan\n",
         result.older_runs);
   }
-  // A gap in one shard is not necessarily a gap in the merged run, because another shard may
-  // contain the configuration.
+  // A gap in one shard (part of a plan) is not necessarily a gap in the merged run, because another
+  // shard may contain the configuration.
   if (!gaps.empty()) {
     put_lines(gaps);
     put("The records listed above are also missing from {} unless another store contains them\n",

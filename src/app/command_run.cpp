@@ -27,8 +27,8 @@ core::ExitCode run(const Measuring& measuring) {
 }
 
 // Measures plans as a CTest fixture. The test is skipped if every configuration is skipped. It
-// fails if a configuration fails, unless the plan is scored: the failures then lower the scores,
-// which a separate test reports.
+// fails if a configuration fails, unless the plan has the check `stress`: the failures then lower
+// the scores, which a separate test reports.
 core::ExitCode run_as_test(const Measuring& measuring) {
   const auto [scored, results, error_kept] = measure_and_tell(measuring);
   const bool failed =

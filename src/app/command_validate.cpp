@@ -25,7 +25,8 @@ namespace triptych::app {
 namespace {
 
 // Plans that cover everything that a driver must get right, regardless of its speed: ordinary
-// scenes with every technique, stress scenes, and scenes with closed-form solutions.
+// scenes with every technique, stress scenes (on which renderers often fail), and scenes with
+// closed-form solutions.
 constexpr std::array<const char*, 6> validation_plans{"volume/quick",     "volume/stress",
                                                       "volume/accuracy",  "particles/quick",
                                                       "particles/stress", "particles/accuracy"};
@@ -290,8 +291,8 @@ void tell_repeats(const ValidateArguments& arguments,
   put_lines(report::repeats_text(cases, repetitions.size()), stderr);
 }
 
-// Probes the features of the devices. If the plans are sharded, only the first shard probes
-// features.
+// Probes the features of the devices. With --shard, only the first part of the plans probes
+// features, so that they are probed once.
 FeatureTable features_of(const ValidateArguments& arguments, const Validation& validation) {
   const std::string& shard = arguments.choice.shard;
   if (!shard.empty() && !shard.starts_with("1/")) return {};

@@ -65,9 +65,9 @@ double statistic_variance(double n, double ties) {
   return n * (n + 1) * (2 * n + 1) / 24 - ties / 48;
 }
 
-// Returns the number of sorted Walsh averages that lie outside the interval at each end. For
-// distinct differences, this is the largest k with P(V ≤ k − 1) ≤ tail, or 0 if there is no such k.
-// V is the signed-rank statistic of n differences.
+// Returns the number of sorted Walsh averages (the means of two differences) that lie outside the
+// confidence interval at each end. For distinct differences, this is the largest k with
+// P(V ≤ k − 1) ≤ tail, or 0 if there is no such k. V is the signed-rank statistic of n differences.
 std::size_t averages_outside(std::size_t n, double tail) {
   if (n > most_for_exact) {
     const auto count = static_cast<double>(n);
@@ -88,8 +88,9 @@ std::size_t averages_outside(std::size_t n, double tail) {
   return k;
 }
 
-// The smallest variance of ln t that is assumed between process runs: (10⁻⁶)². No clock resolves a
-// millionth of a batch, so a smaller variance would be an artefact of the timers.
+// The smallest variance of ln t that is assumed between process runs (lifetimes of worker
+// processes): (10⁻⁶)². No clock resolves a millionth of a batch, so a smaller variance would be an
+// artefact of the timers.
 constexpr double least_variance = 1e-12;
 
 PairVerdict unconfirmed(const Interval& interval, const SequentialDesign& design) {

@@ -108,10 +108,10 @@ struct Confirmation {
   double p = 1;  // p-value of the hypothesis that the shift is not larger than tolerated
 };
 // Compares the mean of the process runs with τ₀ by Student's t test. The variance between process
-// runs is moderated over all suspects. The Benjamini–Hochberg procedure is applied to the suspects
-// with the rate `q`. The resulting false discovery rate holds for all configurations for two
-// reasons: the process run that selected the suspects is not used for the confirmation, and no
-// other configuration is called slower or faster.
+// runs is moderated over all suspects (moderated_variance() in estimation/statistics.hpp). The
+// Benjamini–Hochberg procedure is applied to the suspects with the rate `q`. The resulting false
+// discovery rate holds for all configurations for two reasons: the process run that selected the
+// suspects is not used for the confirmation, and no other configuration is called slower or faster.
 //
 // A suspect that is not confirmed gets the verdict `same` if its interval proves it, and
 // `undecided` otherwise. A suspect with fewer than least_process_runs process runs is undecided.

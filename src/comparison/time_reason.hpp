@@ -22,9 +22,9 @@ enum class TimeCause : std::uint8_t {
   side_ended,             // a side did not measure the configuration [side, outcome, reason]
   only_one_side,          // only one side has the configuration [side]
   wrong_image,            // the image of a side is wrong, so its time has no meaning [side]
-  no_fresh_process_runs,  // fresh process runs could not be measured [suspected]
-  not_confirmed,          // fresh process runs did not confirm the suspicion [suspected "ratio"
-                          // "process_runs"]
+  no_fresh_process_runs,  // no new worker processes could be measured [suspected]
+  not_confirmed,          // new worker processes did not confirm that b is slower or faster
+                          // [suspected "ratio" "process_runs"]
   undecided,              // all blocks were measured without a decision ["blocks" "half_width"]
   budget_ended            // the time budget ended before a decision ["blocks" "half_width"]
 };

@@ -147,7 +147,7 @@ class Timer {
   }
 
   // Returns the minimum time needed to confirm the current suspects (configurations that seem
-  // slower or faster) with fresh process runs.
+  // slower or faster) in fresh process runs, that is, with new worker processes.
   [[nodiscard]] double confirmation_s() const {
     double seconds = 0;
     for (const Entry& entry : entries_) {

@@ -84,8 +84,8 @@ double rho(double u) {
   return 1 - rest * rest * rest;
 }
 
-// Returns Σρ/(n − 2) for the n residuals. This mean of ρ defines the scale of the residuals: it is
-// 1/2 if `scale` is that scale.
+// Returns Σρ/(n − 2) for the n residuals. The scale of the residuals is the value of `scale` for
+// which this mean of ρ is 1/2.
 double mean_rho(Points residuals, double scale) {
   double sum = 0;
   for (const double residual : residuals) sum += rho(residual / (Bisquare::c_breakdown * scale));
