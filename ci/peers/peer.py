@@ -160,10 +160,10 @@ def print_ratio(scene, ours, vtk, error):
     fastest = [min(((ns, name) for name, (ns, rmse) in cases.items() if rmse <= error), default=None)
                for cases in (ours, vtk)]
     if None in fastest:
-        print(f"  no ratio: {' and '.join(p for p, f in zip(('Triptych', 'VTK'), fastest) if f is None)} "
-              f"does not reach RMSE {error:.5f}")
+        print(f"  no ratio, because RMSE {error:.5f} was not reached by "
+              f"{' and '.join(p for p, f in zip(('Triptych', 'VTK'), fastest) if f is None)}")
         return False
     (our_ns, our_name), (vtk_ns, vtk_name) = fastest
     print(f"  time to RMSE {error:.5f}: Triptych {our_ns / 1e6:.3f} ms ({our_name}), VTK {vtk_ns / 1e6:.3f} ms "
-          f"({vtk_name}): {our_ns / vtk_ns:.3f}")
+          f"({vtk_name}); ratio {our_ns / vtk_ns:.3f}")
     return True

@@ -135,7 +135,7 @@ def check_sizes(folder, plan, store, configurations):
     assert count == DEVICES * configurations
     told = run(CLUSTER / "submit", "--folder", folder / "sized", "--minutes", 1, "--like", store, "--device", "null:*", plan)
     wanted = -(-seconds // 60)
-    assert f"of {wanted:.0f} are job" in told, f"{seconds} s: {told}"
+    assert f"of {wanted:.0f} were submitted as job" in told, f"{seconds} s: {told}"
     run("scancel", "--user", os.environ.get("USER", "root"))
     wait("the end of what was cancelled", queue_is_empty, 300)
 
@@ -156,7 +156,7 @@ def test(folder, generator):
     assert f"shards {ranges(lost)} of {SHARDS} are not complete" in told and f"submit --again {farm}" in told, told
     for index in sent_again:
         log = (farm / "1" / f"shard-{index}.log").read_text()
-        assert "sent 2 times" in log and "were already in the store" in log, log
+        assert "attempt 2 of job" in log and "were already in the store" in log, log
     assert f"shards {ranges(lost)} of" in run(CLUSTER / "submit", "--again", farm)
     wait("the end of what was sent again", queue_is_empty, 600)
     told = (farm / "merge.log").read_text()

@@ -44,12 +44,12 @@ class Peers(unittest.TestCase):
         ours = {"step=1": (4e6, 0.01), "step=2": (2e6, 0.02), "step=4": (1e6, 0.5)}
         reached, said = ratio(ours, {"VTK": (8e6, 0.015)}, 0.02)
         self.assertTrue(reached)
-        self.assertEqual(said[-1], "  time to RMSE 0.02000: Triptych 2.000 ms (step=2), VTK 8.000 ms (VTK): 0.250")
+        self.assertEqual(said[-1], "  time to RMSE 0.02000: Triptych 2.000 ms (step=2), VTK 8.000 ms (VTK); ratio 0.250")
 
     def test_who_does_not_reach_the_error_is_told(self):
         reached, said = ratio({"a": (1e6, 0.01)}, {"VTK": (1e6, 0.5)}, 0.02)
         self.assertFalse(reached)
-        self.assertEqual(said[-1], "  no ratio: VTK does not reach RMSE 0.02000")
+        self.assertEqual(said[-1], "  no ratio, because RMSE 0.02000 was not reached by VTK")
 
 
 if __name__ == "__main__":

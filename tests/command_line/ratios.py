@@ -30,7 +30,8 @@ class Ratios(unittest.TestCase):
     def test_the_new_side_over_the_best_old_one(self):
         done = run("tiles*, 10 spheres", "--rounds", "2", factors={"*tiles*": 3, "*point*": 6, "*quad*": 12})
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("| new over old | `null:scripted` |\n|---|---|\n| tiles over sprites, 10 spheres | 0.50 (0.50–0.50) · – · ", done.stdout)
+        self.assertIn("| new / old: time · instructions · samples or fragments | `null:scripted` |\n|---|---|\n"
+                      "| tiles over sprites, 10 spheres | 0.50 (0.50–0.50) · – · ", done.stdout)
 
     def test_data_that_are_not_there_are_told(self):
         done = run("skip distance over bricks*", factors={})

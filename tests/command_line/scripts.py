@@ -65,7 +65,7 @@ class Scripts(unittest.TestCase):
         done = self.run_script("ci/fresh", "trixie", "ci/package")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual((self.checkout / "out/triptych_1.deb").read_text(), "made\n")
-        self.assertIn("fresh: out/triptych_1.deb\n", done.stdout)
+        self.assertIn("fresh: created out/triptych_1.deb\n", done.stdout)
         self.assertEqual(list(self.folder.glob("triptych-trixie.*")), [])
 
     def test_a_package_for_arm64_goes_where_it_is_asked_for(self):
