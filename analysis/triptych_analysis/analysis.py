@@ -68,8 +68,8 @@ def _correlate(dataset, references, left_out):
             boxes.append({"factor": factor, **box})
             matrices.append(matrix)
         else:
-            left_out.append((f"correlation of {factor}", f"no two of its {len(by_factor.levels)} levels have "
-                             f"{correlation.LEAST_PAIRS} configurations in common in which both vary"))
+            left_out.append((f"correlation of {factor}", f"for no two of its {len(by_factor.levels)} levels are there "
+                             f"{correlation.LEAST_PAIRS} common configurations whose values are not all equal"))
     if not factors:
         left_out.append(("correlation", "every factor has only one level"))
     for factor, level in references.items():
@@ -93,7 +93,8 @@ def _average(dataset, left_out):
 def _stacks(dataset, left_out):
     matrices = correlation.stacks(dataset)
     if not matrices:
-        left_out.append(("stack of sizes", "no generate:NAME was measured in two sizes with common configurations"))
+        left_out.append(("correlation between sizes",
+                         "no data set generate:NAME was measured in two sizes with the same configurations"))
     return {"stacks": pd.DataFrame([{"name": name, **correlation.box(each)} for name, each in matrices.items()]),
             "stack_correlations": _stacked([each.assign(name=name) for name, each in matrices.items()])}
 

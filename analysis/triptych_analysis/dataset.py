@@ -198,7 +198,8 @@ def _clock(fit, trusted, choice, notes):
         return choice
     for device, count in (~trusted).groupby(fit["level"]).sum().items():
         if count:
-            notes.append(f"the wall clock is used for all: {count} records of {device} have no trusted device time")
+            notes.append(f"the wall clock is used for all records, because {count} records of {device} have no trusted "
+                         "device time")
     return "device" if trusted.all() else "wall"
 
 

@@ -122,7 +122,8 @@ def _speed_ups(analysis):
         drawing.bars(axes, of["level"].to_list(), of["speed_up"], of["low"], of["high"])
         reference = of["reference"].iloc[0]
         what = "Speed-up" if analysis.dataset.signal == "time" else "Speed-up in instructions"
-        axes.set_xlabel(f"slope of {reference} against the level; error: (1 − r)·slope")
+        axes.set_xlabel(f"slope of the line that predicts the value with {reference} from the value with this level\n"
+                        "(error bar: ± (1 − r)·slope)")
         axes.set_title(_about(analysis, f"{what}, {factor} relative to {reference}"))
         yield f"speed_up_{factor}", made
 
@@ -136,7 +137,7 @@ def _predictions(analysis):
         return
     made, axes = drawing.figure(6.5, 1.5 + 0.32 * len(of))
     places = np.arange(len(of))
-    axes.plot(of["line_r2"].astype(float), places, "s", color=drawing.RED, label="a linear model for each structure")
+    axes.plot(of["line_r2"].astype(float), places, "s", color=drawing.RED, label="one linear model for each data structure")
     axes.plot(of["forest_r2"].astype(float), places, "o", color=drawing.BLUE, label="one random forest")
     axes.set_yticks(places, [f"{each.data} ({each.held_out:.0f})" for each in of.itertuples()])
     axes.set_ylim(len(of) - 0.5, -0.5)

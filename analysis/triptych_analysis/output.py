@@ -37,9 +37,10 @@ def summary(of):
                      f"{each.maximum:.3f} ({each.cells} pairs of {each.levels} levels, {each.samples} samples)")
     for each in of.table("predictions").itertuples():
         if each.data in ("all", "every held-out observation"):
-            lines.append(f"  R² of predictions ({each.data}): lines {each.line_r2:.3f}, forest {each.forest_r2:.3f} "
+            lines.append(f"  R² of predictions ({each.data}): linear models {each.line_r2:.3f}, "
+                         f"random forest {each.forest_r2:.3f} "
                          f"({each.held_out:.0f} held-out observations; {each.structures_left_out} of "
-                         f"{each.structures} structures had too few samples for a line)")
+                         f"{each.structures} data structures had too few samples for a linear model)")
     for each in of.table("camera_paths").itertuples():
         if each.subsets_of == "samples":
             lines.append(f"  {each.path} compared with all views: D = {each.d:.3f}, p = {each.p:.2g} ({each.samples} of "

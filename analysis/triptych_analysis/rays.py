@@ -54,7 +54,8 @@ def compare(rows):
 
 def markdown(table):
     """Returns a Markdown table with a row for each device and number of spheres."""
-    lines = ["| Device | Spheres | Fastest without rays | Fastest with rays | " + " | ".join(MODES) + " |",
+    ratios = " | ".join(f"Time ratio, {mode}" for mode in MODES)
+    lines = [f"| Device | Spheres | Fastest without rays | Fastest with rays | {ratios} |",
              "|---|---|---|---|" + "---|" * len(MODES)]
     for (device, count), of in table.groupby(["device", "spheres"]):
         ratio = of.set_index("mode")["ratio"]

@@ -26,7 +26,7 @@ class Observations(unittest.TestCase):
         changes = {}, {"device": "b", "device_clock_trusted": 0.0}
         data = times(*changes)
         self.assertEqual((data.clock, list(data.values)), ("wall", [11, 11]))
-        self.assertIn("the wall clock is used for all: 1 records of b have no trusted device time", data.notes)
+        self.assertIn("the wall clock is used for all records, because 1 records of b have no trusted device time", data.notes)
         self.assertTrue(np.isnan(data.device_ms[1]))
         self.assertEqual(len(times(*changes, clock="device")), 1)
 
