@@ -64,7 +64,7 @@ TEST_F(Compare, TooMuchNoiseGivesNoVerdictButAdvice) {
   const char* much = R"(, "noise": 0.3)";
   const Result result = compare(b_as(1, much), "", much);
   expect_verdict(result, 2, "undecided");
-  EXPECT_NE(result.output.find("384 blocks"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("384 measurement blocks"), std::string::npos) << result.output;
   EXPECT_NE(result.output.find(
                 "to reach a verdict, run: triptych compare volume/quick --a null:scripted"),
             std::string::npos)
@@ -75,17 +75,17 @@ TEST_F(Compare, AWrongImageIsARegressionWhateverTheTime) {
   const std::string wrong = R"(, "failures": [{"kind": "wrong_image", "at": "image"}])";
   const Result result = compare(b_as(0.5, wrong));
   expect_verdict(result, 1, "pixels exceed the error bound of the reference image");
-  EXPECT_NE(result.output.find("the image of b is wrong"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("the image of side b is wrong"), std::string::npos) << result.output;
 }
 
 TEST_F(Compare, ACrashOfBIsARegressionButOfACannotBeJudged) {
   expect_verdict(compare(b_as(1), "--inject crash"), 1,
-                 "b crashed: the worker was killed by SIGSEGV");
+                 "side b crashed: the worker was killed by SIGSEGV");
   const Result of_a = program.run(
       fmt::format("compare volume/quick --a null:scripted --b '{}' {}", b_as(1), tiny_plan),
       script(1, 1, R"(, "failures": [{"kind": "crash", "at": "prepare", "only": "*width=16,*"}])"));
   expect_verdict(of_a, 2,
-                 "technique=raycast,viewport=16: a crashed: the worker was killed by SIGABRT");
+                 "technique=raycast,viewport=16: side a crashed: the worker was killed by SIGABRT");
 }
 
 TEST_F(Compare, WithoutTimesOnlyDeterministicResultsAreReported) {
@@ -111,7 +111,7 @@ TEST_F(Compare, TheGateCanCompareWithABase) {
   };
   expect_verdict(gate("--base TRIPTYCH_NULL_SCRIPT='" + script(1, 2) + "'"), 0, "PASS");
   expect_verdict(gate("--base " TRIPTYCH_PROGRAM), 0, "PASS");
-  expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --inject crash"), 1, "b crashed");
+  expect_verdict(gate("--base " TRIPTYCH_PROGRAM " --inject crash"), 1, "side b crashed");
   expect_verdict(gate("--base nothing"), 3,
                  "--base nothing: expected an executable program or NAME=VALUE");
   expect_verdict(gate("--base /bin/true"), 3,
@@ -123,7 +123,7 @@ TEST_F(Compare, TheGateCanCompareWithABase) {
 
 TEST_F(Compare, AnUntrustedClockIsNotUsed) {
   const Result result = compare(b_as(1, R"(, "noise": 0.01, "device_over_wall": 0.1)"));
-  expect_verdict(result, 0, "the device clock of b failed its calibration");
+  expect_verdict(result, 0, "the device clock of side b failed its calibration");
 }
 
 TEST_F(Compare, JsonContainsTheSameResult) {

@@ -69,7 +69,7 @@ TEST_F(Diff, APlanInOnlyOneStoreCannotBeJudged) {
   measure("new.sqlite", "", "volume/accuracy");
   const Result result = diff();
   EXPECT_EQ(result.code, 2) << result.output;
-  EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy exists only in b"));
+  EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy exists only on side b"));
 }
 
 // The driver could draw nothing, either before or after the update. That must not count as a pass.

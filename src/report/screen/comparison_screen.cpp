@@ -58,7 +58,7 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
   std::string line = fmt::format("{:<12}", compared.verdict_name());
   if (compared.has_time()) {
     line += milliseconds_of(compared) +
-            fmt::format("{}  {} blocks", ratio_of(compared.shift), compared.blocks);
+            fmt::format("{}  {} measurement blocks", ratio_of(compared.shift), compared.blocks);
     if (compared.process_runs > 0) {
       line += fmt::format(" and {} fresh process runs", compared.process_runs);
     }

@@ -28,15 +28,20 @@ using comparison::TimeReason;
 using comparison::WallClockCause;
 using measure::Side;
 
-// Returns "b crashed: …; a failed: …". b comes first, because it is the side under test.
+std::string side_name(Side side) {
+  return fmt::format("side {}", measure::name_of(side));
+}
+
+// Returns "side b crashed: …; side a failed: …". Side b comes first, because it is the side under
+// test.
 template <typename T>
 std::string by_side(const BySide<T>& sides, std::string_view between) {
   std::string text;
   for (const Side side : {Side::b, Side::a}) {
     const auto& what = sides.at(side == Side::a ? 0 : 1);
     if (!what) continue;
-    text += fmt::format("{}{}{}{}", text.empty() ? "" : "; ", measure::name_of(side), between,
-                        text_of(*what));
+    text +=
+        fmt::format("{}{}{}{}", text.empty() ? "" : "; ", side_name(side), between, text_of(*what));
   }
   return text;
 }
@@ -87,7 +92,7 @@ std::string sentence_of(const Difference& difference) {
     case DifferenceCause::ended:
       return by_side(difference.sides, " ");
     case DifferenceCause::only_one_side:
-      return fmt::format("exists only in {}", measure::name_of(*difference.side));
+      return fmt::format("exists only on {}", side_name(*difference.side));
     case DifferenceCause::no_reference:
     case DifferenceCause::wrong_image:
       return by_side(difference.sides, ": ");
@@ -97,8 +102,9 @@ std::string sentence_of(const Difference& difference) {
       return "the images differ, although the device and the device code are the same: " +
              other_bits(difference);
     case DifferenceCause::two_counters:
-      return fmt::format("not comparable: the counts in 'a' come from {}, those in 'b' from {}",
-                         difference.facts.at("a"), difference.facts.at("b"));
+      return fmt::format(
+          "not comparable: the counts of side a come from {}, those of side b from {}",
+          difference.facts.at("a"), difference.facts.at("b"));
     case DifferenceCause::values_changed:
       return all_changes(difference);
     case DifferenceCause::code_changed:
@@ -106,7 +112,7 @@ std::string sentence_of(const Difference& difference) {
     case DifferenceCause::code_total:
       return text_of(*difference.total);
     case DifferenceCause::reported_by_one_side:
-      return fmt::format("reported only by {}: {}", measure::name_of(*difference.side),
+      return fmt::format("reported only by {}: {}", side_name(*difference.side),
                          values(difference));
     case DifferenceCause::same_driver:
       return values(difference) + ", although the driver is the same";
@@ -231,7 +237,7 @@ std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups) {
 }
 
 std::string text_of(const TimeReason& reason) {
-  const std::string_view side = measure::name_of(reason.side);
+  const std::string side = side_name(reason.side);
   const std::string_view suspected = name_of(reason.suspected);
   const auto number = [&](const char* name) {
     const auto found = reason.numbers.find(name);
@@ -248,7 +254,7 @@ std::string text_of(const TimeReason& reason) {
     case TimeCause::side_ended:
       return fmt::format("{} {}", side, text_of(reason.outcome, reason.reason));
     case TimeCause::only_one_side:
-      return fmt::format("exists only in {}", side);
+      return fmt::format("exists only on {}", side);
     case TimeCause::wrong_image:
       return fmt::format("the image of {} is wrong, so its time is meaningless", side);
     case TimeCause::no_fresh_process_runs:
@@ -275,11 +281,11 @@ std::string text_of(WallClockCause cause) {
     case WallClockCause::none:
       return {};
     case WallClockCause::a_not_calibrated:
-      return "the device clock of a failed its calibration";
+      return "the device clock of side a failed its calibration";
     case WallClockCause::b_not_calibrated:
-      return "the device clock of b failed its calibration";
+      return "the device clock of side b failed its calibration";
     case WallClockCause::neither_calibrated:
-      return "the device clocks of a and b failed their calibrations";
+      return "the device clocks of both sides failed their calibrations";
     case WallClockCause::implausible:
       return "the device clock reported implausible times";
   }
@@ -287,9 +293,9 @@ std::string text_of(WallClockCause cause) {
 }
 
 std::string text_of(const comparison::OnlyOne& only) {
-  const std::string_view side = measure::name_of(only.side);
-  if (only.device.empty()) return fmt::format("plan {} exists only in {}", only.plan, side);
-  return fmt::format("{} on {} exists only in {}", only.plan, only.device, side);
+  const std::string side = side_name(only.side);
+  if (only.device.empty()) return fmt::format("plan {} exists only on {}", only.plan, side);
+  return fmt::format("{} on {} exists only on {}", only.plan, only.device, side);
 }
 
 std::string stage_of(const comparison::ComparisonProgress& progress) {

@@ -24,7 +24,7 @@ namespace triptych::report::words {
 // Returns why there is no verdict on a time, or "" if there is a verdict.
 [[nodiscard]] std::string text_of(const comparison::TimeReason& reason);
 [[nodiscard]] std::string text_of(comparison::WallClockCause cause);
-// States what only one side has: "plan volume/quick exists only in a".
+// States what only one side has: "plan volume/quick exists only on side a".
 [[nodiscard]] std::string text_of(const comparison::OnlyOne& only);
 // Describes the measurement that is in progress: "fresh process run 2 of 5". A process run is the
 // lifetime of one worker process.

@@ -147,7 +147,7 @@ std::string count_too_large(const Observation& what) {
     allowed += fmt::format(" × {:.0f} {}", what.number("unit"), what.fact("of"));
     if (!what.fact("levels").empty()) allowed += " with " + what.fact("levels");
   }
-  return fmt::format("the counter {} is {:.0f}, but the limit is {}", what.fact("counter"),
+  return fmt::format("the counter '{}' is {:.0f}, but the limit is {}", what.fact("counter"),
                      what.number("count"), allowed);
 }
 

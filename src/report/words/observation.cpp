@@ -109,7 +109,7 @@ std::string device_fault(const Observation& what) {
 }
 
 std::string not_counted(const Observation& what) {
-  std::string text = fmt::format("the counter {} is missing", what.fact("counter"));
+  std::string text = fmt::format("the counter '{}' is missing", what.fact("counter"));
   if (!what.fact("levels").empty()) text += " for " + what.fact("levels");
   return text;
 }

@@ -121,7 +121,8 @@ std::string text_of(const StatisticWorth& worth) {
     case Worth::exact:
       return "exact";
     case Worth::counts:
-      return fmt::format("the driver reports the value of counter {} instead", worth.counter);
+      return fmt::format("the driver reports the value of Triptych's counter '{}' instead",
+                         worth.counter);
     case Worth::proportional:
       return fmt::format("always {:.4g} times the correct count", worth.low);
     case Worth::inflated:

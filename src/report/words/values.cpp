@@ -102,7 +102,7 @@ std::string other_compiler(const Observation& what) {
       "not judged, because driver version {} uses a different compiler than the accepted version "
       "{}",
       what.fact("driver_version"), what.fact("other_version"));
-  text += fmt::format("; {:.0f} of {} changed", what.number("changed"),
+  text += fmt::format("; the code statistics of {:.0f} of {} changed", what.number("changed"),
                       counted(what.number("configurations"), "configuration", "configurations"));
   for (const Change& each : what.changes) text += "; " + text_of(each);
   return text;
