@@ -87,8 +87,9 @@ std::string praise(const Contestant& contestant, Ruler ruler) {
   if (ruler == Ruler::instructions) {
     return fmt::format("executes the fewest instructions, {:.1f} million", contestant.amount / 1e6);
   }
-  return fmt::format("is the fastest, {:.3f} ms (median {:.3f}, {} clock)", contestant.amount / 1e6,
-                     contestant.usually / 1e6, ruler == Ruler::device_clock ? "device" : "wall");
+  return fmt::format("is the fastest, minimum {:.3f} ms, median {:.3f} ms ({} clock)",
+                     contestant.amount / 1e6, contestant.usually / 1e6,
+                     ruler == Ruler::device_clock ? "device" : "wall");
 }
 
 // Removes techniques from the plan that took more than twice as long as the fastest technique.
@@ -152,7 +153,7 @@ std::string describe(const FastestAnswer& answer, const std::set<std::string>& c
       text += fmt::format("{}{} {} {:.2f} times as {}{}", i == 1 ? "; " : ", ",
                           chosen_levels(*each.record, chosen), counted ? "executes" : "takes",
                           each.amount / best.amount, counted ? "many" : "long",
-                          each.amount <= best.usually ? " (equally fast)" : "");
+                          each.amount <= best.usually ? " (no clear difference)" : "");
     }
   }
   for (std::size_t i = 0; i < answer.not_drawn.size(); ++i) {

@@ -56,7 +56,7 @@ struct FastestTried {
     const std::function<std::vector<record::Record>(const Plan&)>& trial);
 
 // Returns a line with the chosen levels and their advantage over each alternative. An alternative
-// is called equally fast if its fastest frame did not take longer than the median frame of the
+// shows no clear difference if its fastest frame did not take longer than the median frame of the
 // chosen levels.
 [[nodiscard]] std::string describe(const FastestAnswer& answer,
                                    const std::set<std::string>& chosen);
