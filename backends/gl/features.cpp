@@ -275,7 +275,7 @@ ProbedFeature probe_base_vertex(const Api& gl) {
   constexpr GLint base = -1000;
   Words indices(count);
   std::iota(indices.begin(), indices.end(), static_cast<GLuint>(-base));
-  return probe_points(gl, {512, 196}, count, 1, fmt::format("base {}", base), [&] {
+  return probe_points(gl, {512, 196}, count, 1, fmt::format("base vertex {}", base), [&] {
     const Buffer buffer = filled(gl, GL_ELEMENT_ARRAY_BUFFER, indices);
     gl.DrawElementsBaseVertex(GL_POINTS, static_cast<GLsizei>(count), GL_UNSIGNED_INT, nullptr,
                               base);

@@ -107,7 +107,7 @@ measure::ProbedFeature probe_base_vertex(const Gpu& gpu) {
   std::iota(indices.begin(), indices.end(), static_cast<std::uint32_t>(-base));
   const Buffer buffer =
       make_buffer(gpu, std::as_bytes(std::span(indices)), vk::BufferUsageFlagBits::eIndexBuffer);
-  return probe_points(gpu, {512, 196}, count, fmt::format("base {}", base),
+  return probe_points(gpu, {512, 196}, count, fmt::format("base vertex {}", base),
                       [&](const vk::raii::CommandBuffer& commands) {
                         commands.bindIndexBuffer(buffer.get(), 0, vk::IndexType::eUint32);
                         commands.drawIndexed(count, 1, 0, base, 0);

@@ -69,7 +69,7 @@ std::vector<std::string> gaps_in(const record::Store& store,
       continue;
     }
     told.push_back(fmt::format(
-        "{}{}: {} of {} configurations{}{}", gap.plan,
+        "{}{}: records for {} of {} configurations{}{}", gap.plan,
         gap.device.empty() ? "" : " on " + gap.device, gap.records, gap.configurations,
         gap.missing.empty() ? "" : "; missing: ", gap.missing.empty() ? "" : gap.missing.front()));
     if (gap.missing.size() > 1) told.back() += ", …";

@@ -76,13 +76,14 @@ TEST_F(MergeCommand, ReportsWhatItsInputsLack) {
       .exec("DELETE FROM record WHERE configuration = (SELECT min(configuration) FROM record)");
   const Result merged = run("merge 1.sqlite 2.sqlite 3.sqlite --out m.sqlite");
   EXPECT_EQ(merged.code, 0) << merged.output;
-  EXPECT_THAT(merged.output, AllOf(HasSubstr(" in m.sqlite: 8 configurations\n"),
-                                   testing::ContainsRegex(
-                                       "\n2.sqlite: .* on null:scripted: 2 of 3 configurations.*"
-                                       "\n2.sqlite: .* on null:scripted#2: 2 of 3 config"),
-                                   HasSubstr("\nThe records listed above are also missing from "
-                                             "m.sqlite unless another store contains them"),
-                                   Not(HasSubstr("\n1.sqlite")), Not(HasSubstr("\n3.sqlite"))));
+  EXPECT_THAT(merged.output,
+              AllOf(HasSubstr(" in m.sqlite: 8 configurations\n"),
+                    testing::ContainsRegex(
+                        "\n2.sqlite: .* on null:scripted: records for 2 of 3 configurations.*"
+                        "\n2.sqlite: .* on null:scripted#2: records for 2 of 3 config"),
+                    HasSubstr("\nThe records listed above are also missing from "
+                              "m.sqlite unless another store contains them"),
+                    Not(HasSubstr("\n1.sqlite")), Not(HasSubstr("\n3.sqlite"))));
   fs::remove(program.folder() / "m.sqlite");
   EXPECT_THAT(run("merge 1.sqlite 3.sqlite --out m.sqlite").output, Not(HasSubstr("also missing")));
 }

@@ -18,7 +18,7 @@ constexpr std::size_t longest_listed_command = 4000;
 constexpr std::size_t most_of_bounds = 8000;
 
 std::string rows(const Overview& all) {
-  std::string text = "| check | verdict | |\n|---|---|---|\n";
+  std::string text = "| check | verdict | details |\n|---|---|---|\n";
   for (const KindRow& row : all.rows) {
     text += fmt::format("| {} | {} | {} |\n", row.kind,
                         row.worst == judge::Verdict::regression ? "**FAIL**" : row.verdict,
@@ -41,7 +41,7 @@ std::string bounds(const Overview& all) {
   if (all.bounds.empty()) return {};
   std::string text =
       "\n<details><summary>How close images come to their bounds</summary>\n\n"
-      "| plan | device | images | largest error / bound | where |\n|---|---|--:|--:|---|\n";
+      "| plan | device | images | largest error / bound | configuration |\n|---|---|--:|--:|---|\n";
   for (const NearestBound& bound : all.bounds) {
     text += fmt::format("| {} | {} | {} | {:.3g} | {} |\n", markdown_escaped(bound.plan),
                         markdown_escaped(bound.device), bound.pictures, bound.share,

@@ -105,7 +105,8 @@ Columns<ValueSource> cost_columns() {
        [](const ValueSource& s) { return s.name; }},
       {{"unit", "text", "", "unit of the count"},
        [](const ValueSource& s) { return cost_unit(s.name); }},
-      {{"count", "integer", "see unit", "the count"}, [](const ValueSource& s) { return s.value; }},
+      {{"count", "integer", "see the column unit", "the count"},
+       [](const ValueSource& s) { return s.value; }},
   };
 }
 

@@ -37,8 +37,8 @@ std::string nearest_text(std::span<const NearestBound> bounds) {
   const auto [farthest, nearest] = std::ranges::minmax_element(bounds, {}, &NearestBound::share);
   std::string text = fmt::format("error / bound ≤ {:.3g}", nearest->share);
   if (farthest->share < sees_little && farthest != nearest) {
-    text += fmt::format(", but only {:.2g} on {} in {}", farthest->share, farthest->device,
-                        farthest->plan);
+    text +=
+        fmt::format(" (≤ {:.2g} on {} in {})", farthest->share, farthest->device, farthest->plan);
   }
   return text;
 }

@@ -25,7 +25,7 @@ struct NearestBound {
 [[nodiscard]] std::vector<NearestBound> nearest_bounds(
     std::span<const judge::GateResult* const> results);
 
-// Returns "error / bound ≤ 0.61, but only 0.0031 on gl:x in volume/quick": the largest share and,
+// Returns "error / bound ≤ 0.61 (≤ 0.0031 on gl:x in volume/quick)": the largest share and,
 // if it is below 0.01, the smallest share with its device and plan. Returns "" if there are no
 // images.
 [[nodiscard]] std::string nearest_text(std::span<const NearestBound> bounds);

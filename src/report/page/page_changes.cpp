@@ -173,7 +173,7 @@ Html time_bars(const PlanData& plan) {
   for (const auto& [row, shares] : by_row) {
     largest = std::max(largest, std::abs(record::percentile(shares, 0.5)));
   }
-  Rows rows{{"device", "technique", "median", "", "from", "to", "configurations"}};
+  Rows rows{{"device", "technique", "median", "", "25 %", "75 %", "configurations"}};
   for (const auto& [row, shares] : by_row) {
     const record::Summary of = *record::summarise(shares);
     rows.push_back({row.first, row.second, percent(of.median), bar(of.median, largest),

@@ -194,7 +194,7 @@ Html kinds(const Overview& all) {
 
 Html bounds(const Overview& all) {
   if (all.bounds.empty()) return {};
-  Rows rows{{"plan", "device", "images", "largest error / bound", "where"}};
+  Rows rows{{"plan", "device", "images", "largest error / bound", "configuration"}};
   for (const NearestBound& bound : all.bounds) {
     rows.push_back({bound.plan, bound.device, fmt::to_string(bound.pictures),
                     fmt::format("{:.3g}", bound.share), breakable(bound.configuration)});

@@ -177,9 +177,8 @@ std::vector<std::string> colours_of(const PixelInImage& pixel) {
   if (pixel.recorded) {
     lines.push_back(colour_line("recorded", *pixel.recorded,
                                 *pixel.recorded == pixel.image
-                                    ? "the build that records samples draws the colour of the image"
-                                    : "the build that records samples does not draw the colour of "
-                                      "the image"));
+                                    ? "the build that records samples gives the same colour"
+                                    : "the build that records samples gives a different colour"));
   }
   lines.push_back(colour_line("reference", pixel.reference, ""));
   return lines;
@@ -287,8 +286,8 @@ PixelText pixel_text(const PixelInImage& pixel, const accuracy::SpriteHistory& h
     text.summary.push_back(
         fmt::format("{} more spheres behind these were not drawn alone", history.left_out));
   }
-  text.table.push_back(fmt::format("{:>8} {:<10}{:>12}{:>16}{:>10}{:>10}{:>10}", "drawn", "",
-                                   "shown", "depth", "red", "green", "blue"));
+  text.table.push_back(fmt::format("{:>8} {:<10}{:>12}{:>16}{:>10}{:>10}{:>10}", "sphere", "",
+                                   "visible id", "depth", "red", "green", "blue"));
   for (std::size_t at = 0; at < history.rows.size(); ++at) add_sprite(history, at, text);
   return text;
 }
