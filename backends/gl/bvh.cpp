@@ -142,7 +142,8 @@ class BvhDrawing final : public Drawing {
   Program trace_;
   Program show_;
   std::string kernel_hash_;
-  std::uint32_t rounds_ = 1;  // number of dispatches after which every beam has ended
+  // The number of dispatches after which the traversals of all beams have ended.
+  std::uint32_t rounds_ = 1;
   std::optional<Counting> counting_;
 };
 

@@ -33,10 +33,10 @@ std::vector<technique::Cell> cells_with_large_points(const Api& gl,
   const double largest = largest_point(gl);
   const bool all_small = std::max(scene.width, scene.height) + 4 <= largest;
   const double pixel = 2 * scene::tangent_of_half(scene.camera.fov_y_deg) / scene.height;
-  // Let the centre of a sphere with radius r be at a along one axis of the image and at z along the
-  // view axis. On the image plane at distance 1, the two tangents of the sphere enclose an interval
-  // of length 2r√(a² + z² − r²)/(z² − r²) along this axis. A small amount is added for the margins
-  // of sprites and points, and for round-off.
+  // Let r be the radius of a sphere, a the coordinate of its centre along one axis of the image,
+  // and z its distance along the view axis. The two tangents from the eye to the sphere enclose an
+  // interval of length 2r√(a² + z² − r²)/(z² − r²) along this axis of the image plane at distance
+  // 1. A small amount is added for the margins of sprites and points, and for round-off.
   const auto may_be_large = [&](const std::array<float, 4>& sphere) {
     const glm::dvec3 to = glm::dvec3(sphere[0], sphere[1], sphere[2]) - scene.camera.eye;
     const double r = static_cast<double>(sphere[3]);

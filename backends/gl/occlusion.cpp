@@ -9,8 +9,8 @@
 namespace triptych::gl_backend {
 namespace {
 
-// The bindings of technique/particles/occlusion.glsl. The texture unit is defined only in this
-// file.
+// The bindings of technique/particles/occlusion.glsl, and the texture unit of depth_image, which
+// this file declares below.
 constexpr GLuint binding_before = 8;
 constexpr GLuint binding_now = 9;
 constexpr GLuint binding_farthest = 10;

@@ -45,8 +45,8 @@ void ParticleTarget::bind(const Api& gl) const {
   gl.DepthFunc(passes);
 }
 
-// Fills the depth buffer with a value that remains in no pixel after a frame, because a frame
-// clears the depth to another value and then draws its own depths.
+// Fills the depth buffer with a value that cannot remain in any pixel, because every frame first
+// clears the depth to a different value.
 void ParticleTarget::poison(const Api& gl) const {
   bind(gl);
   constexpr GLuint id = core::Image::no_particle - 1;

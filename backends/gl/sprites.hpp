@@ -13,7 +13,7 @@
 
 namespace triptych::gl_backend {
 
-// A way to turn particles into sprites.
+// One draw of a frame, with the stages that turn particles into sprites.
 struct SpriteDraw {
   GLenum mode = GL_POINTS;
   // Whether a particle is an instance of four vertices (true) or a single vertex (false).

@@ -33,7 +33,7 @@ constexpr GLuint binding_id_texels = 19;
 constexpr GLuint image_unit = 0;  // TRI_LARGE_PIXELS
 
 constexpr std::size_t word = sizeof(GLuint);
-constexpr std::size_t header_words = 8;  // from small_kept to groups in tiles.glsl
+constexpr std::size_t header_words = 8;  // the fields from small_kept to groups in tiles.glsl
 constexpr std::size_t groups_at = 4 * word;
 constexpr std::size_t tile_words = 8;
 constexpr std::size_t planes = 2;

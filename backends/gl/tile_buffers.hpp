@@ -35,7 +35,8 @@ class TileBuffers {
               const technique::Arrangement& arrangement, const technique::TileRounds& rounds,
               const ParticleData& data, int extra_work_stride);
 
-  // Binds the buffers to bindings 6…20 of the shared shaders.
+  // Binds the buffers to the storage blocks 6…12, the texture units 13…19 and the image unit 0 of
+  // the shared shaders.
   void bind(const Api& gl) const;
   void choose(const Api& gl, Cells cells) const;
   // Overwrites all data that a frame writes before it reads them.

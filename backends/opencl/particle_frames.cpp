@@ -59,8 +59,9 @@ measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
   });
 }
 
-// The set of hidden cells depends on the previous frame. Therefore this draws the first frame after
-// a reset, so that the counted frame is the second, which skips the same cells as all later frames.
+// Draws the first frame after the set of hidden cells was reset, because this set depends on the
+// previous frame. The counted frame is then the second frame, which skips the same cells as all
+// later frames.
 void ParticleFrames::prepare_counting() {
   if (counting_.empty()) {
     ParticleConstants constants = constants_;

@@ -20,10 +20,10 @@ struct BinTable {
   [[nodiscard]] std::size_t words() const { return bins * chunks; }
 };
 // Chunks are small, so that many compute units have work, but not so small that the table becomes
-// larger than the entries that it helps to sort. Their number depends only on the scene, so that a
-// frame allocates the same number of bytes on every machine, which can then be compared with a
-// baseline. On devices with few compute units, fewer chunks would suffice. For example, the 390
-// chunks of the scene stress:pile:200000 need 24,304 more bytes than 16 chunks would.
+// larger than the entries that it helps to sort. The number of chunks depends only on the scene, so
+// that a frame allocates the same number of bytes on every machine, and this number can be compared
+// with a baseline. On devices with few compute units, fewer chunks would suffice. For example, the
+// 390 chunks of the scene stress:pile:200000 need 24,304 more bytes than 16 chunks would.
 [[nodiscard]] BinTable bin_table(int width, int height, std::size_t particles);
 
 // Returns the reason why the device cannot draw these particles with this technique; nullopt if it

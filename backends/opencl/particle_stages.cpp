@@ -81,8 +81,9 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
             .entries = make_buffer(0),
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
-  // The buffers are made large enough for all visible cells (ranges of neighbouring particles)
-  // regardless of the stride, because later passes draw fewer cells, but not always the same cells.
+  // The buffer for entries is made large enough for all visible cells (ranges of neighbouring
+  // particles), even if the stride is greater than 1. With a stride, a pass draws only some of
+  // these cells, but with occlusion culling not the same cells in every frame.
   Pass whole = pass;
   whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};

@@ -67,7 +67,8 @@ class ParticleStages {
   [[nodiscard]] cl::NDRange cell_range() const;
   [[nodiscard]] Launch cull(const ParticlePrograms& programs) const;
   [[nodiscard]] Launch test(const ParticlePrograms& programs) const;
-  // Adds the launches that compute the vertices of the sprites, if this needs separate passes.
+  // Adds the launches that compute the vertices of the sprites, if the technique needs separate
+  // passes for that.
   void add_expansion(const ParticlePrograms& programs, const Pass& pass,
                      std::vector<Launch>& to) const;
   // If the passes of add_expansion() stored vertices or points, sets them (`stored_`) as the last

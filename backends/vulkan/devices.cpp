@@ -147,9 +147,9 @@ bool tells_driver(const vk::raii::PhysicalDevice& device, std::uint32_t api_vers
   });
 }
 
-// The id of a device that only compiles contains the values of the environment variables that
-// selected the device. The driver's folder is not part of the id, because it does not change the
-// generated code.
+// The id of a device that only compiles names the driver and the GPU family, which environment
+// variables selected. Therefore these variables are not recorded. The path of the driver is not
+// recorded either, because it does not change the generated code.
 void compile_only_for(const std::string& family, std::string_view driver, record::Device& info) {
   info.compiles_for = family;
   info.id = measure::compile_only_id("vulkan", driver, family);

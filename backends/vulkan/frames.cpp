@@ -34,8 +34,9 @@ constexpr std::array<Statistic, 11> statistics_in_order{{
 }};
 
 constexpr std::uint32_t timestamps = 2;
-// The initial value of a timestamp, which the device overwrites. A clock never returns this value
-// by chance, because the bits beyond the width of its counter are 0.
+// The initial value of a timestamp, which the device overwrites. A clock does not return this value
+// by chance, because the upper bits of a counter with fewer than 64 bits are 0, and a counter with
+// 64 bits would need centuries to reach the value.
 constexpr std::uint64_t unwritten_ticks = 0xFEEDFACE0BADF00D;
 
 }  // namespace

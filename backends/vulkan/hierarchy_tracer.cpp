@@ -106,7 +106,8 @@ class HierarchyTracer final : public Tracer {
   std::vector<vk::Pipeline> build_;
   vk::Pipeline timed_;
   vk::Pipeline counting_;
-  std::uint32_t rounds_ = 1;  // number of dispatches after which every beam has ended
+  // The number of dispatches after which the traversals of all beams have ended.
+  std::uint32_t rounds_ = 1;
 };
 
 std::vector<vk::DescriptorSetLayoutBinding> HierarchyTracer::bindings() const {

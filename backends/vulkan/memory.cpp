@@ -24,7 +24,8 @@ vk::DeviceSize heap_size(const Gpu& gpu, std::uint32_t type) {
 // Chooses a memory type. Never uses a heap that is too small, such as a heap of 0 bytes, whatever
 // its flags are.
 std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, Place place) {
-  if (!gpu.executes) return 0;  // without a GPU, RADV lists no memory types and uses the first
+  // Without a GPU, RADV lists no memory types, but accepts the index 0.
+  if (!gpu.executes) return 0;
   using enum vk::MemoryPropertyFlagBits;
   const vk::MemoryPropertyFlags host = eHostVisible | eHostCoherent;
   // The property flags in order of preference. The specification guarantees that a type with the

@@ -126,8 +126,8 @@ void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continu
   commands.setScissor(0, everything);
 }
 
-// Fills the depth buffer with a value that remains in no pixel after a frame, because a frame
-// clears the depth to another value and then draws its own depths.
+// Fills the depth buffer with a value that cannot remain in any pixel, because every frame first
+// clears the depth to a different value.
 void ParticleTarget::poison(const Gpu& gpu) const {
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   const std::array<vk::ClearValue, 3> values{

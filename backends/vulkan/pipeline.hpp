@@ -69,8 +69,8 @@ static_assert(sizeof(Constants) == 9 * 4);
   return compute_pipeline(gpu, layout, code, Specialization(constants));
 }
 
-// If a dump was requested, writes the SPIR-V of one stage with its constants and the time that it
-// took to create its pipeline, which began at `begin`.
+// If a dump was requested, writes the SPIR-V and the constants of one stage, and the time that the
+// creation of its pipeline took, which is the time since `begin`.
 void dump_shader(vk::ShaderStageFlagBits stage, std::string_view code,
                  const Specialization& constants, std::chrono::steady_clock::time_point begin);
 

@@ -221,8 +221,8 @@ void SpriteFrames::draw_run(const vk::raii::CommandBuffer& commands, bool instan
 }
 
 // Draws the injected extra work: 1/stride of the particles a second time. Draws whole cells if
-// there are enough of them, so that culled cells stay culled. The image does not change, because of
-// two equal depths, the depth test keeps the first.
+// there are enough of them, so that culled cells stay culled. The image does not change, because
+// the depth test keeps the first of two equal depths.
 void SpriteFrames::draw_again(const vk::raii::CommandBuffer& commands) const {
   const auto stride = static_cast<std::uint32_t>(options_.extra_work_stride);
   if (technique_.draw.meshes) {

@@ -26,7 +26,7 @@ struct SpriteStage {
   std::string_view counting;
 };
 
-// One way to turn particles into sprites.
+// One draw of a frame, with the stages that turn particles into sprites.
 struct SpriteDraw {
   std::vector<SpriteStage> stages;
   // If true, a draw has four vertices per particle and no vertex buffer. Otherwise, it has one

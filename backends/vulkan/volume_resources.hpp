@@ -65,7 +65,8 @@ class VolumeResources {
   [[nodiscard]] technique::RayTrace read_trace() const;
   // Overwrites the counters if there are any.
   void poison_counters() const;
-  // Sums the counters over all pixels and adds "rays". Throws measure::NotDrawn.
+  // Sums the counters over all pixels, and adds the number of rays as "rays". Throws
+  // measure::NotDrawn if the shader did not write the counters.
   [[nodiscard]] record::Counts read_counters() const;
 
  private:
