@@ -14,9 +14,11 @@ FARTHEST = 10
 
 
 def mean_values(dataset, rows, columns):
-    """Returns the mean value for each combination of levels of two factors. The means are taken over the fullest block, so that
-    they differ only in these two factors. Returns an empty table if either factor has fewer than two levels in this block. A
-    combination that was not measured has no row."""
+    """Returns the mean value for each combination of levels of two factors, which the columns `rows` and `columns` name. The
+    column `row` contains the level of the first factor, `column` the level of the second factor, `samples` the number of
+    observations, `mean_UNIT` their mean, and `held` the factors with only one level, such as "step=1, viewport=64" (see scope()).
+    The means are taken over the fullest block, so that they differ only in the two factors. Returns an empty table if either
+    factor has fewer than two levels in this block. A combination that was not measured has no row."""
     mean = f"mean_{dataset.unit}"
     chosen = fullest_block(dataset, [rows, columns])
     of_row, of_column = levels_in(dataset, rows, chosen), levels_in(dataset, columns, chosen)
@@ -30,7 +32,8 @@ def mean_values(dataset, rows, columns):
 
 
 def by_count(dataset, generator="uniform"):
-    """Returns the mean value for each device, technique and count in `generate:GENERATOR:COUNT`. For each device, only
+    """Returns the mean value (column `mean_UNIT`) for each device, technique and number of spheres. `count` is the number of
+    spheres in the data set generate:GENERATOR:COUNT, and `samples` the number of observations. For each device, only
     configurations that were measured with the same techniques and counts are used, so that the means differ only in these."""
     mean = f"mean_{dataset.unit}"
     data, prefix = dataset.factor("data"), f"generate:{generator}:"
@@ -47,11 +50,11 @@ def by_count(dataset, generator="uniform"):
 
 
 def technique_for(counts, device, count):
-    """Ranks the techniques for a number of spheres on the devices that match a glob, cheapest first. If that number was not
-    measured, the value is interpolated or extrapolated along a line through the logarithms of the two nearest counts, which
-    the column `from` names. `to_least` is the ratio to the cheapest technique on the same device. A technique has no row if it
-    was measured with only one other count, or if the nearest count is more than a factor of FARTHEST away. Returns an empty
-    table if there are no values by count."""
+    """Ranks the techniques for a number of spheres on the devices that match a glob, cheapest first. `counts` is the table from
+    by_count(). If the number of spheres was not measured, the value is interpolated or extrapolated along a line through the
+    logarithms of the two nearest counts. The column `from` is "measured" or names these two counts. `to_least` is the ratio to
+    the cheapest technique on the same device. A technique has no row if it was measured with only one other count, or if the
+    nearest count is more than a factor of FARTHEST away. Returns an empty table if there are no values by count."""
     if counts is None or counts.empty:
         return pd.DataFrame(columns=["device", "technique", "from", "to_least"])
     mean = counts.columns[-1]
@@ -79,10 +82,11 @@ def _at_count(counts, values, count):
 
 
 def effects(dataset, factors):
-    """Returns the influence of each factor while all other factors are fixed, largest first. `share` is the mean variance of
-    ln(value) along the factor, divided by the variance of ln(value). This is the total-effect index of Homma & Saltelli (1996);
-    shares may add up to more than 1. `largest_ratio` is the largest geometric mean of the ratio between two levels, which the
-    columns `cheap` and `expensive` name."""
+    """Returns the influence of each factor while all other factors are fixed, largest first. `levels` is the number of levels of
+    the factor, and `keys` the number of combinations of the other factors that were measured with at least two of these levels.
+    `share` is the mean variance of ln(value) along the factor, divided by the variance of ln(value). This is the total-effect
+    index of Homma & Saltelli (1996); shares may add up to more than 1. `largest_ratio` is the largest geometric mean of the
+    ratio between two levels, which the columns `cheap` and `expensive` name, and `pairs` is the number of ratios in that mean."""
     total = np.log(dataset.values).var() if len(dataset) else 0
     rows = []
     for factor in factors:

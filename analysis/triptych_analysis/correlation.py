@@ -24,8 +24,11 @@ def pearson(x, y):
 
 
 def correlations(dataset, of_split):
-    """Returns one row for every unordered pair of levels: factor, a, b, pairs, r, samples, held. r is NaN if there are fewer
-    than LEAST_PAIRS pairs or if the values of a level are constant."""
+    """Returns one row for every unordered pair of levels `a` and `b` of a factor. `of_split` contains the observations, divided
+    by the levels of this factor (splits.Split). `pairs` is the number of configurations that were measured with both levels, and
+    `r` is Pearson's r of their values. r is NaN if there are fewer than LEAST_PAIRS pairs or if the values of a level are
+    constant. `samples` and `held` are the same in all rows: the number of observations from which any r was computed, and the
+    factors that have the same level in all these observations, such as "step=1, viewport=64"."""
     values = of_split.values(dataset)
     there = of_split.rows >= 0
     entered = np.zeros_like(there)
@@ -44,8 +47,9 @@ def correlations(dataset, of_split):
 
 
 def box(matrix):
-    """Returns the numbers of a factor's box in the overview plot, computed from the correlation coefficients in `matrix`, or
-    None if all of them are NaN."""
+    """Returns the numbers of a factor's box in the overview plot, or None if all correlation coefficients in `matrix`, a table
+    from correlations(), are NaN. `levels` is the number of levels of the factor, and `cells` the number of coefficients, whose
+    mean and quartiles follow. `samples` and `held` are copied from `matrix`."""
     r = matrix["r"].dropna()
     if r.empty:
         return None
@@ -56,9 +60,12 @@ def box(matrix):
 
 
 def speed_ups(dataset, of_split, reference):
-    """Returns the speed-up of every level except the reference. It is the slope of the line value(reference) = intercept +
-    speed_up · value(level), which is fitted to the pairs by least squares. The error is (1 − r)·speed_up, as in the paper.
-    mean_ratio is the geometric mean of value(reference)/value(level), which does not depend on an intercept."""
+    """Returns the speed-up of every level except the reference. `of_split` contains the observations, divided by the levels of
+    the factor (splits.Split). The column `speed_up` is the slope of the line value(reference) = intercept + speed_up ·
+    value(level), which is fitted to the pairs by least squares, and `pairs` is the number of pairs. `error` is (1 − r)·speed_up,
+    as in the paper, and `low` and `high` are the ends of the range speed_up ± error. `mean_ratio` is the geometric mean of
+    value(reference)/value(level), which does not depend on an intercept. `held` lists the factors that have the same level in
+    all these observations, such as "step=1, viewport=64"."""
     columns = ["factor", "level", "reference", "pairs", "speed_up", "error", "low", "high", "r",
                f"intercept_{dataset.unit}", "mean_ratio", "held"]
     rows = []
@@ -98,7 +105,7 @@ def reference_of(of_split, references):
 
 def stacks(dataset):
     """Correlates different sizes of the same data, which are the levels generate:NAME:SIZE of the factor `data`. Returns
-    {name: matrix}."""
+    {name: table from correlations()}."""
     whole = split(dataset, "data")
     by_name = {}
     for i, level in enumerate(whole.levels):

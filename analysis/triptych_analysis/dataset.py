@@ -51,7 +51,8 @@ class Dataset:
         return self.camera_part(name, of_all=True)[0]
 
     def camera_part(self, part, of_all=False):
-        """Returns a part of the camera as a factor, and the rest of the camera as another factor."""
+        """Returns a part of the camera as a factor, and the rest of the camera as another factor. An observation whose camera
+        lacks the part has no level. Random views have the path "random" if `of_all` is true, and otherwise no path."""
         camera = self.factors.get("camera") or Factor([], np.full(len(self), -1))
         places = [_place(*view_of(each), part, of_all) for each in camera.levels]
         return (_recoded(camera.codes, [each and each[0] for each in places]),
@@ -81,7 +82,7 @@ def factor_of(texts):
 
 
 def view_of(camera):
-    """"orbit_y:1/8" → ("orbit_y", "1/8")"""
+    """Splits a camera into its path and the position on the path: "orbit_y:1/8" → ("orbit_y", "1/8")"""
     path, _, position = camera.partition(":")
     return path, position
 
@@ -169,8 +170,10 @@ def _aside(records, notes, more, emulated):
 
 
 def _latest(records, notes):
-    """Returns the latest record of every configuration on every device. The level of a device is its id, followed by a hash if
-    several drivers or processors have the same id."""
+    """Returns the latest record of every configuration on every device, and a table of the earlier records, which are dropped.
+    This table has a row for each dropped record: its device and configuration, the run and the store of the record that is used
+    instead (`taken`), and those of the dropped record (`dropped`). The level of a device is its id, followed by a hash if several
+    drivers or processors have the same id."""
     identity = records["device_key"].fillna("") + records["processor"].map(lambda each: f"|{each}" if each else "")
     level = records["device"].copy()
     for device, of_device in identity.groupby(records["device"]):

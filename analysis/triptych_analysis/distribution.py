@@ -10,7 +10,7 @@ from .splits import levels_in, scope
 LEAST = 8  # the smallest number of observations for a fit
 PERCENTS = [0, 5, 10, 25, 50, 75, 90, 95, 99, 100]
 MOST_REPLICATES, LEAST_REPLICATES = 999, 99
-MOST_DRAWS = 20_000_000  # limits a test to a few seconds
+MOST_DRAWS = 20_000_000  # the most random numbers for one test, which limits it to a few seconds
 
 
 def fit_log_normal(values):
@@ -62,9 +62,15 @@ def histogram(values, logarithmic):
 
 
 def distributions(dataset, seed):
-    """Returns three tables (fits, percentiles, histograms) for all values together and for the values of each device. If every
-    record has times from both clocks, all values are analysed with both. At least LEAST values are needed, which must not all
-    be equal."""
+    """Returns three tables for all values together and for the values of each device. At least LEAST values are needed, which
+    must not all be equal. If every record has times from both clocks, all values together are analysed with both clocks.
+
+    The column `of` is "all" or "device=NAME", `samples` is the number of values, and `held` lists the factors that have the same
+    level in all these observations, such as "step=1, viewport=64".
+    1. Fits: the mean, the parameters mu and sigma of the log-normal fit, D (`ks_d`) and p (`ks_p`) of ks_log_normal(), p of
+       lilliefors_p(), and the number of its replicates.
+    2. Percentiles: one row for each of PERCENTS.
+    3. Histograms: one row for each bin from histogram(), with a linear and with a logarithmic `scale`."""
     fits, percentiles, bins = [], [], []
     for of, clock, rows, values in _samples(dataset):
         if len(values) < LEAST or not fit_log_normal(values)[1] > 0:

@@ -64,7 +64,19 @@ def _number(name, level):
 def predict(dataset, seed):
     """Returns a table of scores, and the reason if the table is empty. There is one row for each level of `data`, then a row
     "all", rows with the mean, the minimum and the maximum over the levels of `data`, and the forest's score for all held-out
-    observations."""
+    observations. The columns are COLUMNS:
+
+    data                  the level of `data`, or the name of a summary such as "all"
+    models                number of linear models, one for each data structure
+    held_out              number of held-out observations that are predicted
+    line_r2, forest_r2    R² of the linear models and of the random forest for these observations
+    trained               number of training observations of the forest
+    structures            number of data structures among the held-out observations
+    structures_left_out   number of structures with too few training observations for a linear model
+    line_features         the factors that the linear models use, if they vary
+    structure             the factors that vary and define the data structure
+    held                  the factors that have only one level, such as "shading=none, viewport=64"
+    """
     everything = np.arange(len(dataset))
     if len(dataset) < LEAST:
         return pd.DataFrame(columns=COLUMNS), f"there are {len(dataset)} observations; {LEAST} are needed"

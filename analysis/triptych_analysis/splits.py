@@ -60,7 +60,8 @@ def factors_of(dataset):
 
 
 def scope(dataset, rows):
-    """Describes observations: how many there are, which factors vary, and which factors are fixed at which level."""
+    """Describes observations: their number (`samples`), the names of the factors that vary (`varied`), and the factors that have
+    the same level in all of them (`held`), as one string such as "step=1, viewport=64"."""
     held, varied = {}, []
     for name, factor in dataset.factors.items():
         present = np.unique(factor.codes[rows])

@@ -12,12 +12,12 @@ from .splits import fullest_block, levels_in, scope
 
 SUBSETS = 100
 REJECTED_BELOW = 0.05
-MOST_FOR_EXACT = 4_000_000  # the largest n · m for which the exact distribution is computed
+MOST_FOR_EXACT = 4_000_000  # the largest product of two sample sizes for which the exact distribution is computed
 
 
 def ks_two_samples(a, b):
     """Returns (D, p) of the two-sided test of a and b. b must be sorted. For small samples, p is exact if there are no ties.
-    For large samples, p is Kolmogorov's p for a sample of size n·m/(n + m)."""
+    For large samples of sizes n and m, p is Kolmogorov's p for a sample of size n·m/(n + m)."""
     n, m = len(a), len(b)
     if n * m <= MOST_FOR_EXACT:
         with warnings.catch_warnings():
@@ -34,10 +34,15 @@ def ks_two_samples(a, b):
 
 def path_tests(dataset, seed):
     """Tests each path, using the configurations that were measured from the most views. Returns two rows for each path. In the
-    first row, the path is compared with random subsets of as many values from any views, as in the paper. In the second row, it
-    is compared with random sets of as many views. Random subsets are taken from all values, so they are closer to all values
-    than independent samples would be, and their p are larger than uniformly distributed ones. Returns an empty table if there
-    is only one path."""
+    first row, the path is compared with random subsets of as many values from any views, as in the paper (`subsets_of` is
+    "samples"). In the second row, it is compared with random sets of as many views ("views"). Random subsets are taken from all
+    values, so they are closer to all values than independent samples would be, and their p are larger than uniformly
+    distributed ones. Returns an empty table if there is only one path.
+
+    `views` and `samples` are the numbers of views and of values of the path, and `all_views` and `all_samples` those of all
+    paths together. `d` and `p` are the result of the test of the path. `subsets` is the number of random subsets, and `rejected`
+    the number of them whose p is below REJECTED_BELOW. `d_mean` and the columns after it summarize the D and p of the subsets.
+    `held` lists the factors that have the same level in all these observations, such as "step=1, viewport=64"."""
     columns = ["path", "views", "samples", "all_views", "all_samples", "d", "p", "subsets_of", "subsets", "rejected",
                "d_mean", "p_minimum", "p_mean", "p_median", "p_maximum", "held"]
     values, by_view = values_by_view(dataset)
