@@ -9,7 +9,8 @@ from triptych_analysis import dataset
 
 
 def factorial(plan, value, signal="time", suite="volume", without=lambda at: False):
-    """Returns a data set of all combinations of levels for which `without` is false. `value` computes their values."""
+    """Returns a data set of all combinations of levels for which `without` is false. `plan` maps factors to their levels, and
+    `value` computes the value of a combination."""
     combinations = [dict(zip(plan, each)) for each in itertools.product(*plan.values())]
     combinations = [each for each in combinations if not without(each)]
     values = np.array([value(each) for each in combinations], dtype=float)
@@ -20,7 +21,8 @@ def factorial(plan, value, signal="time", suite="volume", without=lambda at: Fal
 
 
 def records(*changes):
-    """Returns rows like those of tables.read(). Each argument contains the columns in which one row differs from the ordinary."""
+    """Returns rows like those of tables.read(). Each argument defines one row, by the columns in which it differs from an
+    ordinary record."""
     ordinary = {"run": "r1", "suite": "volume", "plan": "volume/study", "technique": "raycast", "device": "a",
                 "configuration": "camera=orbit_y:0/2,data=ball,technique=raycast", "outcome": "measured",
                 "injected": None, "median_wall_ns": 11e6, "median_device_ns": 9e6, "device_clock_trusted": 1.0,

@@ -15,8 +15,8 @@
 namespace triptych::command_line {
 namespace {
 
-// Returns a script for devices that draw the limit image, to which images converge for small steps,
-// of the scenes with these data.
+// Returns a script for devices that draw the limit images of the scenes with these data. Images
+// converge to the limit image of their scene as the step size decreases.
 std::string drawing_the_limit(const Program& program, const std::vector<std::string>& data,
                               const std::string& viewport) {
   const auto suite = volume_suite::make_suite({});

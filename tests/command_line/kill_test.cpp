@@ -1,6 +1,6 @@
 // Kills the program at random moments, which are the same in every test run. Stored records must
-// remain, and a file or folder must be replaced either completely or not at all.
-// TRIPTYCH_KILLS=1000 kills each command more often.
+// remain, and a file or folder must be replaced either completely or not at all. Each command is
+// killed 8 times, or as often as TRIPTYCH_KILLS states.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

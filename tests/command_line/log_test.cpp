@@ -70,7 +70,8 @@ TEST(Log, LinesFitInto80Columns) {
 
 class CiSystems : public testing::Test {
  protected:
-  // An image becomes wrong after its baselines were accepted.
+  // Accepts baselines with a correct image. The tests then run the gate with a device that draws a
+  // wrong image.
   void SetUp() override {
     ASSERT_EQ(program.run(gate, right()).code, 2);
     ASSERT_EQ(program.run("accept --reason new --baselines baselines --store s.sqlite").code, 0);

@@ -124,8 +124,8 @@ TEST_F(OnlyCompile, AnInjectedFaultIsFoundOnEveryFamily) {
     }
   }
   EXPECT_GE(grown.size(), 3U) << judged.output;
-  // A compiler may merge an added operation with its neighbour, or need another one to move a
-  // value.
+  // A compiler may merge an added operation with a neighbouring one, or add another instruction
+  // that moves a value.
   for (auto& [device, changes] : grown) {
     EXPECT_THAT(changes["instructions per iteration"], AllOf(Ge(1), Le(2))) << device;
     EXPECT_THAT(changes["tiles_index.comp instructions per iteration"], AllOf(Ge(1), Le(2)))

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# Replaces unshare: runs the command that ci/root would run inside a Debian system directly in the folder.
+# Replaces unshare: runs the command in the folder itself, whereas ci/root would run it in a Debian system inside that folder.
 UNSHARE = """while [ "$1" != root ]; do shift; done
 root=$2 count=$3
 shift 3

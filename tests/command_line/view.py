@@ -173,7 +173,7 @@ class Mistakes(unittest.TestCase):
 
     @unittest.skipUnless(WINDOW.exists(), "the window is not built")
     def test_a_window_without_its_program_is_refused(self):
-        """Copies the program without its window."""
+        """Copies triptych without triptych-view, the program that shows the window."""
         with tempfile.TemporaryDirectory() as folder:
             alone = shutil.copy(PROGRAM, folder)
             done = subprocess.run([alone, "view", "volume"], capture_output=True, text=True)

@@ -60,8 +60,8 @@ TEST(Adapt, ImagesStayWithinTheBudget) {
   });
 }
 
-// Two images from the same device may differ by no more than the budget, because each is exact
-// except for round-off.
+// Compares images with and without merging from the same device. They may differ by no more than
+// the budget plus the round-off of both images.
 TEST(Adapt, ImagesOfOneDeviceDifferByAtMostTheBudget) {
   on_every_driver([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {

@@ -1,5 +1,5 @@
 // Tests the quadrature `cells`, which integrates each voxel cell along the ray, on real devices. It
-// is exact if the field has no kinks, stays within its error bound everywhere, gives bit-identical
+// is exact for a homogeneous box, stays within its error bound everywhere, gives bit-identical
 // images for all modes of skipping empty space, and is closer to the limit image (the exact
 // integral) than the midpoint rule with an eighth of its step size.
 

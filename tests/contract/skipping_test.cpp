@@ -1,5 +1,6 @@
-// Tests that skipping empty space gives bit-identical images, for every generator, both transfer
-// functions, with and without shading, both quadratures, and every real volume.
+// Tests that skipping empty space gives bit-identical images for every real volume and for volumes
+// from every generator, the latter with and without shading and with the quadratures `midpoint` and
+// `preintegrated`.
 
 #include "data_folder.hpp"
 #include "under_test.hpp"

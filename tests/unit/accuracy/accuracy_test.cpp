@@ -157,7 +157,8 @@ TEST(SwitchedPicture, FindsTheCounterpartInAnotherScene) {
   for (AccuracyCase& each : others) each.factors["viewport"] = "96";
   const auto found = switched_picture(cases, others, "viewport");
   ASSERT_TRUE(found);
-  EXPECT_EQ(found->from, 1U);  // the most accurate case has no counterpart
+  // The other scene has no case with the step of the most accurate case.
+  EXPECT_EQ(found->from, 1U);
   EXPECT_EQ(found->to, 0U);
   EXPECT_FALSE(switched_picture(cases, others, "step"));
 }

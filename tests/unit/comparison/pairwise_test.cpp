@@ -112,7 +112,7 @@ TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
 }
 
 // For 40 differences of two sizes, a manual computation of the variance gives n(n+1)(2n+1)/24 −
-// (20³−20)·2/48 = 5203.75….
+// (20³−20)·2/48 = 5202.5.
 TEST(SignedRank, TiesNarrowTheApproximation) {
   std::vector<double> values(20, 1.0);
   values.insert(values.end(), 20, -2.0);

@@ -193,7 +193,7 @@ TEST_F(AccuracyGateTest, ANewDeviceIsComparedWithTheWorstAcceptedError) {
 }
 
 // If the order falls to 1.95, the error of the finest step size grows by 15 %. That growth alone
-// would be within the rounding that was accepted.
+// would be within the accepted rounding error.
 TEST_F(AccuracyGateTest, ALowerOrderIsARegression) {
   request_.truth = [this](const record::Record& record) {
     const core::Image truth = nearer_truth(record);

@@ -102,9 +102,9 @@ double order_against_limit(AnalyticProblem problem, int size, const std::vector<
 }
 
 // The voxel grid only approximates the blob, so the errors for different step sizes are measured
-// against the limit image of the grid, to which images converge for small steps. The series begins
-// with an additional, larger step, because the kinks at cell boundaries of a smooth field dominate
-// only at small steps.
+// against the limit image of the grid, to which images converge for small steps. The series ends
+// with an additional, smaller step, because the kinks at cell boundaries of a smooth field dominate
+// the error only at small steps.
 TEST(Convergence, BlobIsOfSecondOrderInTheStep) {
   EXPECT_GE(order_against_limit(AnalyticProblem::v4_gaussian, 24, more_halvings), 1.9);
 }

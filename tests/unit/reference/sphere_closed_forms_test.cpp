@@ -163,8 +163,8 @@ TEST(SphereClosedForms, RandomDiscsLeaveTheExpectedShareFree) {
   scene.camera =
       look_at({0, 0, distance}, {0, 0, 0}, {0, 1, 0}, 2 * std::atan(0.9 / distance) * 180 / pi);
   const double uncovered = 1 - render_spheres(scene).coverage;
-  // N discs, each of which covers the share a of the square, change the uncovered share by at most
-  // about √(N·a²·share²).
+  // Let a be the share of the square that one disc covers, N the number of discs, and u the
+  // uncovered share. The standard deviation of u is at most about √(N·a²·u²).
   const double area = pi * radius * radius / 4;
   const double expected = s5_uncovered(discs, radius, 4);
   EXPECT_NEAR(expected, 0.778, 1e-3);

@@ -76,8 +76,8 @@ TEST(Page, ShowsCostAndTimesNextToStoredValues) {
   EXPECT_THAT(page, HasSubstr("<td class=\"number\">-10.00 %</td><td><span class=\"bar less\""));
 }
 
-// If an image is wrong, its wrong counters are reported together with it. Filtering by counters
-// finds both.
+// If an image is wrong, its finding also reports its wrong counters. Therefore the finding has both
+// checks, `counters` and `image`, so that the filter for either check shows it.
 TEST(Page, ListsEveryValueThatDiffersFromTheStoredOne) {
   const std::string page = page_of(true);
   const std::string table = page.substr(page.find("data-kind=\"values\" data-check=\"counters\""));

@@ -51,8 +51,8 @@ TEST(Division, AWallIsSeparatedFromSpheresBehindIt) {
   EXPECT_LT(with_wall, wall * 11 / 10);
 }
 
-// In an even distribution, a cell is worth dividing only from 1.5 times the average number of
-// particles on. Cells with 512 ± 23 particles are therefore not divided.
+// A cell of evenly distributed particles is divided only if it contains at least 1.5 times the
+// average number of particles. Here, cells contain 512 ± 23 particles, so none of them is divided.
 TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
   const scene::ParticleScene scene =
       scene_without_camera(generated_set("uniform", 13 * 13 * 13 * 512));

@@ -223,10 +223,10 @@ TEST(PreintegratedStep, IsSplitIntoChunksIfItMayBeDeep) {
   EXPECT_EQ(preintegration_form(scene), 2);
 }
 
-// `tau(s)` is the extinction at the relative position s in a cell. Expresses the position as a
-// function of the share of the optical depth with three coefficients, and returns the remaining
-// error divided by the squared tilt, which is the relative difference of the extinctions at both
-// ends.
+// `tau(s)` is the extinction at the relative position s in a cell. Approximates the position as a
+// function of the share of the optical depth by a polynomial with three coefficients, and returns
+// the largest error of this approximation divided by the square of the tilt. The tilt is |tau_b −
+// tau_a|/(tau_a + tau_b), where tau_a and tau_b are the extinctions at both ends.
 double left_behind(double tau_a, double tau_b, const auto& tau) {
   constexpr int parts = 4000;
   // Positions are denser at both ends.
