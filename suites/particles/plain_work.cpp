@@ -118,7 +118,7 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   if (work.options.conservative_depth) {
     if (technique.method == technique::Method::tiles) {
       plainer("conservative_depth", "off",
-              "the technique tiles always rejects spheres by the depth of their front");
+              "the technique 'tiles' always rejects spheres by the depth of their nearest point");
     } else if (sprites_are_apart(work.scene)) {
       plainer("conservative_depth", "off", "no sprite lies behind another");
     }

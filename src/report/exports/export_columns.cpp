@@ -110,7 +110,7 @@ Columns<RecordSource> what_it_took() {
       {{"warm_up_frames", "integer", "frames", "number of frames drawn before the timed frames"},
        [](const RecordSource& s) { return when_timed(s, integer(s.record.warm_up_frames)); }},
       {{"frames_per_100ms", "integer", "frames",
-        "number of frames that take 100 ms, estimated during warm-up"},
+        "number of frames that can be drawn in 100 ms, estimated during warm-up"},
        [](const RecordSource& s) { return positive(s.record.frames_per_100ms); }},
       {{"loop_wall_ns", "number", "ns",
         "duration of the loop that draws frames back to back and is timed as a whole"},

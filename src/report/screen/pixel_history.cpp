@@ -284,7 +284,7 @@ PixelText pixel_text(const PixelInImage& pixel, const accuracy::SpriteHistory& h
   }
   if (history.left_out > 0) {
     text.summary.push_back(
-        fmt::format("{} more spheres behind these were not drawn alone", history.left_out));
+        fmt::format("{} more spheres behind these were not tested", history.left_out));
   }
   text.table.push_back(fmt::format("{:>8} {:<10}{:>12}{:>16}{:>10}{:>10}{:>10}", "sphere", "",
                                    "visible id", "depth", "red", "green", "blue"));

@@ -72,13 +72,13 @@ std::string blame(const FindingGroup& group) {
     case Blame::Of::unknown:
       break;
     case Blame::Of::driver:
-      return fmt::format("the driver is at fault, because {} correct with the same API",
-                         with_verb(blame.devices, "is", "are"));
+      return fmt::format(
+          "the driver is at fault, because {} correct",
+          with_verb(blame.devices, "uses the same API and is", "use the same API and are"));
     case Blame::Of::driver_since_accepted:
       return fmt::format(
-          "the driver is at fault, because {} correct with the same API when the baselines were "
-          "accepted",
-          with_verb(blame.devices, "was", "were"));
+          "the driver is at fault, because {} correct when the baselines were accepted",
+          with_verb(blame.devices, "uses the same API and was", "use the same API and were"));
     case Blame::Of::not_the_driver:
       return fmt::format("the driver is not at fault, because {} wrong, too",
                          with_verb(blame.devices, "is", "are"));

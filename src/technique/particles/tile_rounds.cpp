@@ -149,7 +149,7 @@ std::optional<std::string> passes_reason(const TileRounds& rounds) {
   constexpr std::uint64_t most = 65'000;
   if (rounds.passes <= most) return std::nullopt;
   return fmt::format(
-      "the technique tiles would need {} loop iterations in one invocation because the spheres "
+      "the technique 'tiles' would need {} loop iterations in one invocation because the spheres "
       "cover many tiles, and some drivers silently end such long loops; use a smaller viewport or "
       "another technique",
       rounds.passes);
