@@ -36,8 +36,8 @@ struct Box {
 };
 
 // Returns the camera that a level (value) of the factor (setting) `camera` describes: "PATH:i/n"
-// with 0 ≤ i < n, "random:SEED", or "view:…" (free_view.hpp). Let λ = i/n, c the box's centre, s
-// its size, L its largest extent, and D = (L/2)/tan(fov/2). The paths are:
+// with 0 ≤ i < n, "random:SEED", or "view:…" (free_view.hpp). Let λ = i/n, c the box's centre, L
+// its largest extent, and D = (L/2)/tan(fov/2). The paths are:
 // clang-format off
 //   orbit_x|y|z      a circle of radius L/2 + D about that axis, at the angle 2πλ, looking at c
 //   orbit_-x|-y|-z   the same circle in the opposite direction. The orbits about x and y start on the +z side, those about z on
@@ -49,8 +49,8 @@ struct Box {
 //                    of half the box's extent along that axis plus D, and reaches c at λ = 1.
 //   path_sin_x|y|z   the same path, displaced by ¼·sin(2πλ) of the box's extent: path_sin_x along z, the other two along x
 //   random:SEED      a random direction, roll, distance (0.3…1.2 times L/2 + D) and target (in the middle half of the box).
-//                    All are drawn again until at least the fraction `random_view_coverage` of the centres of the box's 8×8×8
-//                    cells lies inside a frustum of aspect ratio 1.
+//                    All four are chosen again until at least the fraction `random_view_coverage` of the centres of the box's
+//                    8×8×8 cells lies inside a frustum of aspect ratio 1.
 // clang-format on
 // The near and far planes enclose the part of the box in front of the eye. Equal arguments give
 // bit-identical cameras on every machine. Throws InputError for any other `spec`, for a field of

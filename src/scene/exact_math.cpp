@@ -9,8 +9,8 @@
 namespace triptych::scene {
 namespace {
 
-// Evaluates a Taylor series by Horner's method. The coefficients are 1/n! with the signs of the
-// series, and the compiler rounds them correctly.
+// Evaluates a Taylor polynomial by Horner's method. The compiler rounds the coefficients correctly,
+// because each is written as a quotient of two integers.
 template <std::size_t N>
 double horner(const std::array<double, N>& coefficients, double x) {
   double sum = 0;

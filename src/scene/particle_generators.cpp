@@ -261,7 +261,7 @@ void coincident(Maker& maker) {
 // them.
 void walled(Maker& maker, std::uint64_t seen) {
   static constexpr double reach =
-      0.75;  // radius, in edges of a square, whose corners are √½ edges from its middle
+      0.75;  // radius / edge of a square; the corners of a square are √½ edges from its middle
   maker.colour_along(2, cube);
   const auto rows =
       seen > 1 ? static_cast<std::uint64_t>(std::sqrt(static_cast<double>(seen - 1))) : 0;
