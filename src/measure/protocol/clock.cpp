@@ -176,8 +176,8 @@ record::ClockTrust calibrate_clock(Device& device, Suite& suite, technique::Work
 // - If the ticks have a wrong length, the ratio exceeds 1 or is constant within 5 %.
 // - If the clock leaves out launches and waits, the ratio varies by more than 5 % from frame to
 //   frame.
-// - If the clock leaves out the work itself, the ratio is less than 2 % (lavapipe around
-//   dispatches: 0.0003).
+// - If the clock leaves out the work itself, the ratio is less than 2 %. For example, it is 0.03 %
+//   with lavapipe's time stamps around dispatches.
 //
 // Only the first kind is a fault.
 std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) {

@@ -79,7 +79,8 @@ class FrameProof {
 //
 // On a busy machine, all checked frames may have been slow. Therefore, before it throws, the
 // function draws more frames with `draw_checked`, which returns the wall time of a frame after
-// checking its image, until one of them is fast enough.
+// checking its image. It throws only if none of a hundred checked frames is fast enough to explain
+// the fastest frame of the loop.
 void check_loop(const std::vector<double>& loop_wall_ns, std::vector<double> proven_wall_ns,
                 const std::function<double()>& draw_checked);
 

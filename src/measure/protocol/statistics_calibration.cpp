@@ -61,8 +61,8 @@ constexpr int small_rows = 10;
 constexpr std::uint64_t small_sprites = std::uint64_t{small_columns} * small_rows;
 
 // Returns a scene with a grid of spheres. Each sphere is 5 pixels wide in the image, in a cell of 7
-// × 6.2 pixels. No sprite touches another sprite or the border, and each sprite has a different
-// position relative to the pixel grid.
+// × 6.2 pixels. No sprite touches another sprite or the border. The height of a cell is not a whole
+// number, so that adjacent rows of spheres have different positions relative to the pixel grid.
 ParticleWork many_small() {
   constexpr int width = 70;
   constexpr int height = 62;

@@ -39,9 +39,9 @@ struct CalibrationReading {
   record::Counts ours = {};  // Triptych's counters for the scene
 };
 
-// Returns the verdict on a statistic. `proportional` requires at least two scenes. `inflated`
-// requires that no reading is too low. There must be at least one reading, and `expected` must be
-// greater than 0 in each reading.
+// Returns the verdict on a statistic. The verdict `proportional` is possible only with readings of
+// at least two scenes, and the verdict `inflated` only if no reading is too low. There must be at
+// least one reading, and `expected` must be greater than 0 in each reading.
 [[nodiscard]] record::StatisticWorth calibration_verdict(
     const std::vector<CalibrationReading>& readings);
 

@@ -26,7 +26,7 @@ class AheadCompiler {
 
   void finish() { slot_.finish(); }
 
-  // Returns the total time that these jobs have taken, including the time to open the device.
+  // Returns the total time that compile() has taken so far, including the time to open the device.
   [[nodiscard]] double spent_ns() const noexcept { return spent_ns_; }
 
  private:

@@ -20,7 +20,7 @@ namespace triptych::measure {
 struct TracedPixel {
   PixelPlace place;
   technique::RayTrace trace;  // only for a volume
-  core::Image image;          // the image that the tracing build drew
+  core::Image image;          // the image that was drawn while `trace` was recorded
   // The history for a particle scene, which is used instead of `trace` and `image`.
   std::optional<accuracy::SpriteHistory> sprites = {};
 };

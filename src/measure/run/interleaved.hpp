@@ -72,10 +72,10 @@ struct InterleavedOptions {
   std::vector<std::string> kinds;  // kinds of work in the plan, for which the clocks are calibrated
   std::chrono::seconds limit{60};  // time limit for one answer, after which the worker is killed
   std::chrono::seconds start_limit{60};  // time limit for opening a device and calibrating
-  // If a frame is shorter than this time, several frames are drawn in each batch, so that the batch
-  // lasts this long. Batches of both sides have the same number of frames.
+  // If a frame is shorter than this time, several frames (at most 1000) are drawn in each batch, so
+  // that the batch lasts this long. Batches of both sides have the same number of frames.
   double least_batch_ns = 1e6;
-  // A block repeats its four batches until it lasts this long.
+  // A block repeats its four batches until it lasts this long, but at most ten times.
   double least_block_ns = 40e6;
   std::uint64_t seed = 1;  // seed for the random order of the batches in each block
 };

@@ -176,8 +176,9 @@ void PlanRun::measure(const std::string& device, const Configuration& configurat
   report.done(done.record);
 }
 
-// Measures a configuration, unless two earlier attempts began but never ended. Without this limit,
-// a driver that crashes the machine would crash it again with each --resume.
+// Measures a configuration. Does not try it if it is predicted to fail (SameFailure), or if two
+// earlier attempts began but never ended. Without this limit, a driver that crashes the machine
+// would crash it again with each --resume.
 Done PlanRun::attempt(const std::string& device, const Configuration& configuration,
                       const std::string& key, Report& report) {
   if (const auto end = failures_of(device).foretold(configuration)) {

@@ -208,8 +208,8 @@ class Worker {
         [&] { act(batch); }, data_,
         [&](record::Outcome outcome, record::Reason reason) {
           batch = {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
-          // Does not free the objects of a lost device, because this is where drivers fail most
-          // often.
+          // Does not free the objects of a lost device, because drivers fail most often while they
+          // free such objects.
           if (outcome == record::Outcome::lost) {
             static_cast<void>(held_.release());
           } else {
@@ -219,9 +219,9 @@ class Worker {
     return batch;
   }
 
-  // Reports a failure of the configuration during which a driver changed the floating-point mode of
-  // this process, because data generated afterwards would not be bit-identical to the accepted
-  // data.
+  // If a driver has changed the floating-point mode of this process, restores the mode and reports
+  // that the current configuration failed. Without the correct mode, data generated afterwards
+  // would not be bit-identical to the accepted data.
   template <typename OnFailure>
   void blame_arithmetic(const OnFailure& on_failure) {
     std::string changed = restore_arithmetic();
@@ -429,8 +429,8 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
   send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));
 
   while (const auto message = receive(request_fd)) {
-    // Exits without freeing the objects of a lost device, because this is where drivers fail most
-    // often.
+    // Exits without freeing the objects of a lost device, because drivers fail most often while
+    // they free such objects.
     if (serve_one(worker, *message, answer_fd) == record::Outcome::lost) ::_exit(0);
   }
   return 0;

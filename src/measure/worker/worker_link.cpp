@@ -224,9 +224,9 @@ record::Reason WorkerLink::bury_for(record::Reason reason) {
   return reason;
 }
 
-// Waits for a signal that asks this process to stop, and throws Interrupted if it arrives. When a
-// batch system ends a job, it ends the worker and this process at the same time. If the worker ends
-// first, the configuration must not be blamed for it.
+// Waits up to 0.3 s for a signal that asks this process to stop, and throws Interrupted if it
+// arrives. When a batch system ends a job, it ends the worker and this process at the same time. If
+// the worker ends first, its end must not be recorded as a failure of the configuration.
 void WorkerLink::await_own_end() {
   const Deadline deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
   for (;;) {

@@ -26,8 +26,8 @@ void keep_shaders_apart(std::vector<std::string>& environment) {
   environment.push_back(fmt::format("{}={{cache}}/mesa", name));
 }
 
-// Returns the variables that override the environment of a counted worker, and of the worker that
-// compiles for it.
+// Returns the variables that override the environment of a worker whose instructions are counted,
+// and of the worker that fills its cache folder with compiled code (ahead_setup()).
 std::vector<std::string> counted_overrides(const SideOptions& side) {
   std::vector<std::string> overrides = side.environment;
   for (const std::string_view each : counting_environment()) overrides.emplace_back(each);
