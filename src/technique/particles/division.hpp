@@ -35,11 +35,11 @@ class Grid {
 // The cost of a box with n particles is n times the probability that it is visible, which is
 // proportional to its surface area (the surface area heuristic of MacDonald and Booth, Heuristics
 // for ray tracing using space subdivision, 1990). Let A be the surface area of the box around the
-// spheres of a part with n particles. A plane divides it into two parts with costs n₁·A₁ and n₂·A₂.
-// The plane is used if the saving n·A − n₁·A₁ − n₂·A₂ is at least A times half the intended number
-// of particles per cell. Half of a cube has two thirds of the cube's surface area, so a cell with
-// evenly distributed particles is divided only if it has at least one and a half times the intended
-// number.
+// spheres of a part with n particles. A plane divides the part into two parts with n₁ and n₂
+// particles, whose boxes have the surface areas A₁ and A₂. The plane is used if the saving
+// n·A − n₁·A₁ − n₂·A₂ is at least A times half the intended number of particles per cell. Half of a
+// cube has two thirds of the cube's surface area, so a cell with evenly distributed particles is
+// divided only if it has at least one and a half times the intended number.
 class Division {
  public:
   // Divides space for this scene. The constructor temporarily needs four bytes per particle.

@@ -16,8 +16,8 @@ namespace triptych::technique {
 struct HierarchyParameters {
   // The lower corner of the Hilbert curve's grid; w: grid cells per unit length.
   std::array<float, 4> origin{};
-  // The number of particles, the number of levels, and the number of particles in most leaves; the
-  // last component is the number of leaves that have one particle more than that.
+  // The number of particles, the number of levels, the number of particles in the smallest leaves,
+  // and the number of leaves that have one more particle than those.
   std::array<std::uint32_t, 4> shape{};
   std::array<std::uint32_t, 4> step{};
 };

@@ -10,10 +10,10 @@ namespace triptych::technique {
 [[nodiscard]] double point_margin(std::string_view renderer, double granularity);
 
 // Returns the number of pixels by which a sprite must grow on each side (TRI_SPRITE_GROWTH), in
-// addition to its margin of 1/64 pixel, if the device rounds vertices to a grid of 2⁻ᵇ pixel.
-// Whether a vertex is rounded or truncated, it moves by less than one grid step along each axis, so
-// an edge moves by less than √2 steps. Two steps cover this. With 7 bits or more, the margin alone
-// is sufficient.
+// addition to its margin of 1/64 pixel, if the device rounds vertices to a grid of 2⁻ᵇ pixel, where
+// b is `sub_pixel_bits`. Whether a vertex is rounded or truncated, it moves by less than one grid
+// step along each axis, so an edge moves by less than √2 steps. Two steps cover this. If b is 7 or
+// more, the margin alone is sufficient.
 [[nodiscard]] double sprite_growth(int sub_pixel_bits);
 
 }  // namespace triptych::technique

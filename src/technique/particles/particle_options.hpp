@@ -46,8 +46,9 @@ struct ParticleOptions {
   Culling culling = Culling::frustum;
   Structure structure = Structure::built_once;
   ParticleFault fault = ParticleFault::none;
-  // Every extra_work_stride-th particle (in evenly distributed runs) is drawn twice. This injects a
-  // slowdown of about 1/stride through real work that changes no pixel. 0 disables it.
+  // About 1/extra_work_stride of the particles or, for techniques that trace rays, of the rays are
+  // processed twice. This injects a slowdown of about this share through real work that changes no
+  // pixel. 0 disables it.
   int extra_work_stride = 0;
 };
 

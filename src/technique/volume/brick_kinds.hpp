@@ -16,7 +16,8 @@ namespace triptych::technique {
 enum class BrickKind : std::int32_t {
   invisible = 0,  // the ray skips the brick
   sampled = 1,    // the ray takes its regular samples
-  merged = 2,     // the ray takes one sample in the middle of its chord, with the chord's opacity
+  merged = 2,  // the ray takes one sample in the middle of its path through the brick; the sample
+               // has the opacity of this path
   // This and all larger numbers denote homogeneous bricks; each number stands for one value.
   // Consecutive bricks along a ray with the same number are merged into one sample.
   homogeneous = 3
@@ -26,16 +27,16 @@ enum class BrickKind : std::int32_t {
 // if the brick satisfies a bound. The bound ensures that merging all such bricks along a ray
 // changes no channel of any pixel by more than `adapt`.
 //
-// Derivation. Let a ray cross merged bricks. For each crossing, l is its length, A' is its opacity,
-// and T' is the transmittance in front of it. a ≤ b are the smallest and the largest extinction per
-// voxel in the brick, and w is the range of its colours. R is the range of all possible colours,
-// and ΔA is the change of A' that is caused by merging. By the identity in reference/composite.hpp,
-// one crossing changes the image by at most
+// Derivation. Let a ray cross merged bricks. For each crossing, l is its length in voxels, A' is
+// its opacity, and T' is the transmittance in front of it. a ≤ b are the smallest and the largest
+// extinction per voxel in the brick, and w is the range of its colours. R is the range of all
+// possible colours, and ΔA is the change of A' that is caused by merging. By the identity in
+// reference/composite.hpp, one crossing changes the image by at most
 //   T'·(R·|ΔA| + w·A'),   |ΔA| ≤ e^(−al) − e^(−bl) ≤ (b − a)·l·e^(−al).
-// Two facts bound the sum along the ray: Σ T'·A' ≤ 1, and Σ l ≤ L, the longest chord of the volume.
-// Therefore one half of the permitted change, K = adapt/2, is distributed in proportion to opacity,
-// and the other half in proportion to length, with Y = adapt/2L for each voxel length. Because
-// l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a brick that satisfies
+// Two facts bound the sum along the ray: Σ T'·A' ≤ 1, and Σ l ≤ L, where L is the longest chord of
+// the volume in voxels. Therefore one half of the permitted change, K = adapt/2, is distributed in
+// proportion to opacity, and the other half in proportion to length, with Y = adapt/(2·L) for each
+// voxel length. Because l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a brick that satisfies
 //   R·(b − a) + (w − k)·b ≤ (K − k)·a + Y,   k = min(w, K),
 // changes the image by at most K·T'·A' + Y·l, and the sum of these changes is at most `adapt`. A
 // homogeneous brick changes nothing for any l, and neither do several consecutive bricks with the

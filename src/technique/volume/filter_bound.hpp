@@ -12,8 +12,8 @@ namespace triptych::technique {
 // require at least as many bits.
 inline constexpr int least_weight_bits = 4;
 
-// Returns the maximum permitted error of a trilinear filter, relative to the difference between the
-// voxels.
+// Returns the maximum permitted error of a trilinear filter, relative to the largest difference
+// between the voxels that it interpolates.
 //
 //   - Weights. A filter rounds or truncates the position to one of 2^bits positions along each
 //     axis, so the position is off by less than one step along each of three axes. The value

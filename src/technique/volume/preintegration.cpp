@@ -42,12 +42,12 @@ double extinction(double alpha) {
   return std::min(-scene::logarithm_of_1_plus(-alpha), most_extinction);
 }
 
-// Integrates one cell from entry a to entry b. The extinction −ln(1 − alpha) is smooth over the
-// cell unless alpha reaches 1. The cell is therefore cut into pieces whose lengths halve towards an
-// end at which alpha is 1, and each piece is integrated with the five-point Gauss rule. The optical
-// depth in front of a point is the sum of the depths of the previous pieces and the integral of a
-// parabola, which interpolates the extinction at both ends and in the middle of the piece that
-// contains the point.
+// Integrates one cell from entry a to entry b. The cell is cut into four pieces. A piece is halved
+// as long as the extinction −ln(1 − alpha) differs by more than about a tenth between its ends, so
+// pieces become shorter towards an end at which alpha is 1. Each piece is integrated with the
+// five-point Gauss rule. The optical depth in front of a point is the sum of the depths of the
+// previous pieces and the integral of a parabola, which interpolates the extinction at both ends
+// and in the middle of the piece that contains the point.
 class CellIntegral {
  public:
   CellIntegral(const Entry& a, const Entry& b) : a_(a), b_(b) {}

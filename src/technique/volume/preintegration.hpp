@@ -14,13 +14,14 @@ namespace triptych::technique {
 // the interval between two adjacent entries. The pair (from, to) is at index
 // texels_per_pair·(256·from + to):
 //   [0] = (depth, a0), [1] = (a1, 0), [2] = (a2, 0).
-// `depth` is −Σ log2(1 − alpha), averaged over each cell. Multiplied by the length of a cell in
-// voxels, it is the optical depth in powers of two: a depth d transmits 2^−d of the light. a0, a1
-// and a2 are the first Legendre coefficients of the colour as a function of the share of the depth
-// that the light has passed. For a path without any depth, they represent the colour of the entry
-// `from`. An entry of opacity 1 counts as an optical depth of 8192 per voxel, so that 1/64 voxel
-// hides everything behind it. The table is computed in double precision, so its only error is the
-// rounding to float. It depends on the transfer function but not on the step.
+// `depth` is the sum, over all cells of the path, of the mean of −log2(1 − alpha) in the cell.
+// Multiplied by the length of a cell in voxels, it is the optical depth in powers of two: a depth d
+// transmits 2^−d of the light. a0, a1 and a2 are the first Legendre coefficients of the colour as a
+// function of the share of the depth that the light has passed. For a path without any depth, they
+// represent the colour of the entry `from`. An entry of opacity 1 counts as an optical depth of
+// 8192 per voxel, so that 1/64 voxel hides everything behind it. The table is computed in double
+// precision, so its only error is the rounding to float. It depends on the transfer function but
+// not on the step.
 inline constexpr std::size_t texels_per_pair = 3;
 [[nodiscard]] std::vector<std::array<float, 4>> preintegrated_pairs(
     const scene::TransferFunction& function);

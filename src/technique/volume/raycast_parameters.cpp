@@ -30,8 +30,8 @@ std::array<Real, 4> pack(const glm::dvec3& v, double w) {
 }
 
 // Returns the factors that convert a texel to a normalised value. A texel of a UNORM texture is
-// k/maximum, rounded to float. In single precision, the scale includes the factor `maximum`. In
-// double precision, the shader recovers the integer k exactly.
+// k/stored_maximum, rounded to float, where k is the stored integer. In single precision, the scale
+// includes the factor `stored_maximum`. In double precision, the shader recovers k exactly.
 template <class Real>
 std::array<Real, 4> value_map(const scene::VoxelGrid& grid, double stored_maximum, double plane) {
   if constexpr (sizeof(Real) == sizeof(double)) {
