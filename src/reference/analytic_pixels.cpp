@@ -29,7 +29,7 @@ Chord chord_of(const Setting& setting, int x, int y) {
   chord.end = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {-1.0, 1.0}) {
-      // A point is inside if side·(p − face) ≤ 0.
+      // A point with the coordinate p along this axis is inside if side·(p − face) ≤ 0.
       const double face = side < 0 ? 0.0 : setting.extent[axis];
       const double distance = side * (setting.camera.eye[axis] - face);
       const double speed = side * chord.direction[axis];
@@ -142,11 +142,12 @@ Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double l
   return v1_constant(depth, colour, 1.0);
 }
 
-// Returns ∫ |error of g| ds along the ray, where g = e^(−r²/2σ²) is the value of v4_gaussian at
-// distance r from the centre. The error is caused by trilinear interpolation and, near the faces,
-// by clamping. The derivatives are replaced by their maxima within the diagonal of a cell:
-// |∂ᵢg| = rᵢ·g/σ² and |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ², where rᵢ is the distance from the centre along
-// axis i.
+// Returns ∫ |error of g| ds along the ray, where s is the distance along the ray. The value of
+// v4_gaussian at distance r from the centre is g = e^(−r²/(2σ²)), and σ is blob_sigma(). The error
+// is caused by trilinear interpolation and, near the faces, by clamping. The derivatives are
+// replaced by their maxima within the diagonal of a cell. They are
+//   |∂ᵢg| = rᵢ·g/σ²   and   |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ²,
+// where rᵢ is the distance from the centre along axis i.
 double blob_interpolation_error(const Setting& setting, const Chord& chord) {
   constexpr int intervals = 512;
   const double sigma = blob_sigma(setting);
@@ -216,12 +217,13 @@ double length_within(const Chord& chord, const Closest& closest, double radius) 
 }
 
 // Returns w, half the width of the zone around a face of the shell in which grid and table may
-// differ from the closed-form solution. The table changes from one entry to the next within
-// h ≈ R/510 on each side of the face, where R is Shell::reach. The grid stores the distance r from
-// the centre. When it is interpolated, its error is at most D/(r − d), plus rounding. Here, d is
-// the diagonal of a cell, and D = Σ Δᵢ²/8 because |∂ᵢ²r| ≤ 1/r, with Δᵢ the spacing along axis i.
-// Therefore w is the smaller root of (w − h)(s − w) = D with s = face − d. The result is infinite
-// if there is no root, which means that the grid is too coarse.
+// differ from the closed-form solution. `face` is the radius of the face. The table changes from
+// one entry to the next within h ≈ R/510 on each side of the face, where R is Shell::reach. The
+// grid stores the distance r from the centre. When it is interpolated, its error is at most
+// D/(r − d), plus rounding. Here, d is the diagonal of a cell, and D = Σ Δᵢ²/8 because
+// |∂ᵢ²r| ≤ 1/r, with Δᵢ the spacing along axis i. Therefore w is the smaller root of
+// (w − h)(s − w) = D with s = face − d. The result is infinite if there is no root, which means
+// that the grid is too coarse.
 double unsure_zone(const Setting& setting, double face) {
   const auto& spacing = setting.options.spacing;
   double squares = 0;

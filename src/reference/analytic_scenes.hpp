@@ -13,8 +13,8 @@
 namespace triptych::reference {
 
 // The problems, and the order of convergence of a midpoint renderer with step h, measured by the
-// error against the closed-form solution. τ is the extinction (optical depth per unit of length), k
-// is a constant, and H is the scale height:
+// error against the closed-form solution. τ is the extinction (optical depth per unit of length),
+// τ₀ is its value at z = 0, k is a constant, and H is the scale height:
 // clang-format off
 enum class AnalyticProblem {
   v1_constant,    // homogeneous box                          exact for every h
@@ -80,11 +80,12 @@ struct AnalyticPixel {
 //     errors, unless a step along z is long enough to reach from a kink of the field to a kink of
 //     the medium, which is a distance of n/5 − ½ voxels, with n the number of voxels along z.
 //
-// Derivation of the model error, with u the smallest spacing and α(g) = 1 − e^(−u·τ(g)):
-// interpolating α over 1/255 has an error of at most (1/255)²/8·max|α''|, and rounding to float
-// adds 2⁻²⁴·(α + |α'|). Dividing both by u·(1 − α) gives the error of τ. Multiplying that by the
-// length of the chord gives the error of the image, because the colour of the medium and the colour
-// behind it differ by at most 1. Some problems have additional errors:
+// Derivation of the model error, with u the smallest spacing, α(g) = 1 − e^(−u·τ(g)), and its
+// derivatives α' and α'' with respect to g: interpolating α over 1/255 has an error of at most
+// (1/255)²/8·max|α''|, and rounding to float adds 2⁻²⁴·(α + |α'|). Dividing the sum of these errors
+// by u·(1 − α) gives the error of τ. Multiplying that by the length of the chord gives the error of
+// the image, because the colour of the medium and the colour behind it differ by at most 1. Some
+// problems have additional errors:
 //
 //   - v4_gaussian: the error of trilinear interpolation, Σ Δᵢ²/8·|∂ᵢ²g|, integrated along the ray,
 //     where Δᵢ is the spacing along axis i.

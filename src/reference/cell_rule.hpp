@@ -24,8 +24,9 @@
 //     the ray.
 //   - The rule itself has an error, both on the device and here. It is estimated by halving a
 //     piece, which leaves a sixteenth of the error. The change is therefore 15/16 of the error. If
-//     an extremum of the field is within its error of a kink, a device may leave a piece uncut that
-//     is cut in two here, which multiplies the error of the rule by 16.
+//     the values have an extremum that differs from a kink by no more than the error of the values,
+//     a device may leave a piece uncut that is cut in two here, which multiplies the error of the
+//     rule by 16.
 //
 // If a device makes the same cuts, its rule has nearly the same error as the rule here. Suppose
 // that an end of a piece of length h moves by ε. Then the rule and the integral of a function g
@@ -277,8 +278,10 @@ class CellRule {
     return std::max(time_error(ray, part, part.of_cell[0]), time_error(ray, part, part.of_cell[1]));
   }
 
-  // Returns the distance by which a device may move a piece, as a share of the piece's length. A
-  // share of 1 or more means that the device may cut differently.
+  // Returns the factor by which the range of the integrand, times the length of the piece, bounds
+  // the change of the integral if a device moves the ends of the piece (the factor 8 is derived at
+  // the top of this file). A result of 1 means that a device may make other cuts, so this bound
+  // does not apply.
   [[nodiscard]] double shift_of(const Ray& ray, const Part& part, double from, double to) const {
     if (part.touches_a_kink || doubtful_length(ray, from, to) > 0.0) return 1.0;
     const double moved = end_error(ray, part, from) + end_error(ray, part, to);

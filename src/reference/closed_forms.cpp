@@ -142,8 +142,8 @@ double dawson(double x) {
     return sum;
   }
   // Dawson's function is approximately (1/√π)·Σ e^(−(x−nh)²)/n, summed over all odd n (Rybicki,
-  // Computers in Physics 3, 1989). The error is e^(−(π/2h)²) = 7e-18 for h = 1/4. Terms farther
-  // away than 6.5 are below 5e-19.
+  // Computers in Physics 3, 1989). The error is e^(−(π/(2h))²) = 7e-18 for h = 1/4. Terms with
+  // |x − nh| > 6.5 are below 5e-19 and are left out.
   constexpr double h = 0.25;
   const double centre = std::floor(size / h);
   double sum = 0.0;

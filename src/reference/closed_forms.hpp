@@ -25,9 +25,10 @@ struct Radiance {
 // integration by parts with the transmittance e^(−kt²/2).
 [[nodiscard]] Radiance v2_ramp(double k);
 
-// V3: τ = a + b·t and c = c₀ + c₁·t for 0 ≤ t ≤ length, with τ ≥ 0 everywhere. Integration by parts
-// gives the premultiplied colour
-//   I = [−(c₀ + c₁t)·E]₀ˡ + c₁·∫E dt,   E = exp(−at − bt²/2).
+// V3: τ = a + b·t and c = c₀ + c₁·t for 0 ≤ t ≤ l, where l is the length of the segment, with τ ≥ 0
+// everywhere. Let E = exp(−at − bt²/2) be the transmittance from 0 to t. Integration by parts gives
+// the premultiplied colour
+//   I = [−(c₀ + c₁t)·E]₀ˡ + c₁·∫E dt.
 struct LinearSegment {
   double tau0 = 0;     // a
   double tau1 = 0;     // b
@@ -43,9 +44,10 @@ struct LinearSegment {
 // b → 0 use a Taylor series.
 [[nodiscard]] double transmittance_integral(double a, double b, double length);
 
-// V4: returns the optical depth of τ = τ₀·exp(−r²/2σ²) along a line at distance p from the centre,
-// between s₀ and s₁ (measured from the point that is nearest to the centre):
-// τ₀σ√(π/2)·e^(−p²/2σ²)·[erf(s₁/√2σ) − erf(s₀/√2σ)]. For the whole line it is τ₀σ√(2π)·e^(−p²/2σ²).
+// V4: returns the optical depth of τ = τ₀·exp(−r²/(2σ²)), where r is the distance from the centre,
+// along a line at distance p from the centre, between s₀ and s₁ (measured from the point that is
+// nearest to the centre): τ₀σ√(π/2)·e^(−p²/(2σ²))·[erf(s₁/(√2·σ)) − erf(s₀/(√2·σ))]. For the whole
+// line it is τ₀σ√(2π)·e^(−p²/(2σ²)).
 [[nodiscard]] double v4_gaussian_depth(double tau0, double sigma, double p, double s0, double s1);
 
 // V5: returns the optical depth of τ = τ₀·e^(−z/H) from height z₀ to z₁ ≠ z₀ along a ray at an

@@ -19,9 +19,9 @@ struct Pixel {
 };
 
 // Samples are added from front to back. finish() then processes them from back to front, which
-// yields the colour behind every sample. Let a, c, T and B be the opacity of a sample, its colour,
-// the transmittance in front of it and the colour behind it. A prime marks the device's quantities.
-// The exact identity
+// yields the colour behind every sample. Let I be the colour of the pixel. Let a, c, T and B be the
+// opacity of sample i, its colour, the transmittance in front of it and the colour behind it. A
+// prime marks the device's quantities. The exact identity
 //   I' − I = Σᵢ T'ᵢ·[(a'ᵢ − aᵢ)(cᵢ − Bᵢ) + a'ᵢ(c'ᵢ − cᵢ)]
 // bounds the difference if each primed quantity is replaced by its maximum. The resulting bound
 // includes errors of all orders. A Compositor must be used by only one thread, because it reuses

@@ -25,8 +25,8 @@ struct BrickPlanes {
 //   - samples beyond the shortest possible chord, and samples after the first sample at which a
 //     device may end the ray;
 //   - whether a sample has opacity, if the smallest opacity that it may have on a device is zero.
-//     With preintegrated steps, an opacity below 2⁻²⁴ may become zero, because 1 − 2⁻ᶻ may be
-//     computed as a difference;
+//     With preintegrated steps, an opacity below 2⁻²⁴ may become zero, because a device may compute
+//     the opacity 1 − 2⁻ᶻ of the optical depth z as a difference;
 //   - the side of a plane between bricks to which a sample is assigned, if the sample is closer to
 //     the plane than its position error. This affects one sample and one brick. It does so even
 //     with skip=distance, which leaps over a cube of equal bricks around the current brick: the
@@ -35,7 +35,8 @@ struct BrickPlanes {
 //   - whether a brick between two planes is visited, if the ray crosses both planes at positions
 //     that are equal within their errors;
 //   - with quadrature=cells, two points for each piece that is shorter than the uncertainty of its
-//     ends, and four points for an extremum that is within its error of a kink.
+//     ends, and four points for each extremum of the values that differs from a kink (an entry of
+//     the transfer function at which its slope changes) by no more than the error of the values.
 [[nodiscard]] std::map<std::string, double> open_counts(const scene::VolumeScene& scene,
                                                         const ErrorModel& model,
                                                         const BrickPlanes& planes, int threads = 0);

@@ -44,10 +44,11 @@ struct RayPoint {
   std::array<double, 3> colour{};
 };
 
-// Integrates c·τ·e^(−D) over a piece by the three-point Gauss rule, which has order 6. The optical
-// depth D in front of each point is computed by collocation (with the coefficients of Kuntzmann and
-// Butcher), which preserves the order. The result is scaled so that a constant colour is exact.
-// `point_at(share)` returns a point of a piece of length `length`.
+// Integrates c·τ·e^(−D), where c is the colour and τ the extinction, over a piece by the
+// three-point Gauss rule, which has order 6. The optical depth D from the front of the piece to
+// each point is computed by collocation (with the coefficients of Kuntzmann and Butcher), which
+// preserves the order. The result is scaled so that a constant colour is exact. `point_at(share)`
+// returns a point of a piece of length `length`.
 template <typename PointAt>
 [[nodiscard]] PieceLight gauss_light(double length, const PointAt& point_at) {
   static const double r = std::sqrt(15.0);

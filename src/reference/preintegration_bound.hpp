@@ -40,10 +40,11 @@ struct StepPath {
 // of c, and T the transmittance from the front of the step. A is the opacity of the step, and C its
 // colour before premultiplication. A prime marks a device's quantities.
 //
-//   - Values. A device's values at front and back are within e of the exact values, and so are all
-//     values on its path. Opacity and colour in every piece therefore have an error of at most e
-//     times the steepest slope of the cells in reach, plus table_error. The optical depth is
-//     between the depths for the lowered and the raised opacity.
+//   - Values. A device's values at front and back, as positions in the table, are within e
+//     (StepPath::error) of the exact positions, and so are all values on its path. Opacity and
+//     colour in every piece therefore have an error of at most e times the steepest slope of the
+//     cells within this distance, plus table_error. The optical depth is between the depths for the
+//     lowered and the raised opacity.
 //   - Weights. C is the mean of c with the weights τT, so ∫(c − C)·τT = 0. By the identity in
 //     composite.hpp, a change of the extinction by δ changes the light by the change of the opacity
 //     times C, and in addition by at most 2R·∫T'δ and by at most R·A. For a piece, ∫T'δ is at most

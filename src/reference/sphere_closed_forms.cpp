@@ -8,7 +8,8 @@ namespace triptych::reference {
 
 using std::numbers::pi;
 
-// A direction (x, y, f) is on the cone around (sin θ, 0, cos θ) if
+// A direction (x, y, f), where f is the focal length, is on the cone with half angle α around
+// (sin θ, 0, cos θ) if
 //   (x·sin θ + f·cos θ)² = cos²α·(x² + y² + f²).
 // Completing the square in x with q = cos²θ − sin²α gives the centre and the axes.
 std::optional<SilhouetteEllipse> s1_silhouette(double sin_alpha, double theta, double focal) {

@@ -33,7 +33,7 @@ struct SphereEntry {
                                                   const glm::dvec3& centre, double radius);
 
 // S3: the mean cosine between the surface normal and the view axis, over the disc of a sphere that
-// is far away: ∫₀¹ √(1−ρ²)·2ρ dρ.
+// is far away: ∫₀¹ √(1−ρ²)·2ρ dρ, where ρ is the distance from the middle of the disc in radii.
 inline constexpr double s3_mean_cosine = 2.0 / 3.0;
 
 // S4: two equal spheres intersect in the plane that bisects the line between their centres. Returns

@@ -58,8 +58,8 @@ class SpherePicture {
 // within the margin (SphereErrorModel::margin_px) may hit it at a smaller depth than the largest
 // depth at which another sphere covers all these rays. Depths are widened by their relative error
 // before they are compared. A pixel is certain if there is exactly one candidate and it covers all
-// rays, or if there is no candidate. Particles with the same centre and radius as the visible
-// particle do not count as rivals, because on an exact tie the lowest id must win.
+// rays, or if there is no candidate. Further candidates with the same centre and radius as the
+// visible particle do not make a pixel uncertain, because on an exact tie the lowest id must win.
 //
 // Instead of sampling rays, this method computes an interval of depth over the whole disc of rays.
 // It therefore finds particles that are smaller than the margin, and in case of doubt it reports

@@ -52,9 +52,9 @@ struct Truth {
 [[nodiscard]] Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model = {},
                                   int threads = 0);
 
-// Computes the same ray integral, but refines every step until halving all steps changes no channel
-// by more than `tolerance`. The result is the limit of step → 0 for this grid and table. It is used
-// to measure orders of convergence.
+// Computes the limit of the image for step → 0, for this grid and table. Cuts each ray into pieces,
+// and halves each piece until halving changes its light by no more than the piece's share of
+// `tolerance`. The result is used to measure orders of convergence.
 [[nodiscard]] Truth render_volume_converged(const scene::VolumeScene& scene, double tolerance,
                                             int threads = 0);
 
