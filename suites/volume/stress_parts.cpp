@@ -9,7 +9,8 @@
 namespace triptych::volume_suite {
 namespace {
 
-// Returns (1 − t²)² inside the ball t² < 1, and 0 outside.
+// Returns (1 − t²)² inside the ball t < 1, where t is the distance from `centre` divided by
+// `radius`, and 0 outside.
 double blob(const glm::dvec3& p, const glm::dvec3& centre, double radius) {
   const glm::dvec3 d = (p - centre) / radius;
   const double inside = 1 - (d.x * d.x + d.y * d.y + d.z * d.z);

@@ -45,8 +45,8 @@ StressScene with_every_second(double value) {
 
 }  // namespace
 
-// The variants store the same 256 values as bytes, as 16-bit integers and as floats:
-// v/255 = 257·v/65535.
+// The variants store the same 256 values v = 0 … 255 as bytes, as 16-bit integers 257·v and as
+// floats. Their normalised values are equal, because v/255 = 257·v/65535.
 StressScene stress_format(std::string_view variant) {
   const Size size{24, 24, 24};
   const auto byte = [&](int i, int j, int k) {

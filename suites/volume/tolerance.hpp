@@ -72,8 +72,9 @@ struct PathPrecision {
 // 3. Voxels as half floats (scene::VoxelGrid). If fits_halves is true, integers are exact.
 // Otherwise 2¹⁵·x is rounded to 11 bits, which changes x by at most 2⁻¹¹/(1 + 2⁻¹¹)·x. The model
 // uses 2⁻¹¹·x. The remainder covers the reference renderer's float, which may differ from x by u·x.
-// A value below 2⁻²⁹ would be subnormal and becomes 0, which is half of a storage step of 2⁻²⁸.
-// Nothing overflows, because 2¹⁵ < 65504.
+// A value below 2⁻²⁹ would be subnormal and is replaced by 0. The error is less than 2⁻²⁹, so the
+// model uses a storage step of 2⁻²⁸, half of which is added to the error of the value. Nothing
+// overflows, because 2¹⁵ < 65504.
 //
 // 4. Filter. The error of the weights that the probe measured is rounded up to a power of two, and
 // is at least u. A sampler that rounds its result to the steps of the format has this error even
