@@ -64,16 +64,16 @@ struct Order {
 // too few steps were measured.
 [[nodiscard]] std::optional<Order> fit_order(std::span<const StepError> points);
 
-// Returns the indices of the cases that no other case beats in both cost and error, sorted by cost.
-// If several cases are equal, only the first is included. Cases without a cost are left out.
-// Without `cost_of`, the cost is the time.
+// Returns the Pareto front: the indices of the cases that no other case beats in both cost and
+// error, sorted by cost. If several cases are equal, only the first is included. Cases without a
+// cost are left out. Without `cost_of`, the cost is the time.
 using CostOf = std::function<std::optional<double>(const AccuracyCase&)>;
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases,
                                                     const CostOf& cost_of);
 [[nodiscard]] std::vector<std::size_t> pareto_front(std::span<const AccuracyCase> cases);
 
-// A configuration that is not on the front, and the cheapest configuration on the front that beats
-// it in both cost and error.
+// A configuration that is not on the Pareto front, and the cheapest configuration on the front that
+// beats it in both cost and error.
 struct Dominated {
   std::size_t index = 0;
   std::size_t by = 0;

@@ -53,7 +53,7 @@ struct SpriteRow {
 
 struct SpriteHistory {
   std::vector<SpriteRow> rows;       // sorted from front to back
-  std::size_t left_out = 0;          // number of spheres behind those in `rows`; not drawn alone
+  std::size_t left_out = 0;          // number of spheres behind `rows`, which were not drawn alone
   std::optional<std::size_t> first;  // the first row that differs
   // If the pixel is wrong but no row is wrong, these are the ids of the smallest set of spheres
   // that was found for which the pixel is wrong. Unless `stopped_early`, the pixel is correct if

@@ -151,10 +151,10 @@ Candidate refined(Points x, Points y, Line line, double least) {
   return best;
 }
 
-// Stores the line with the smallest scale so far. try_pair() replaces it by the refined line
-// through two points if the line through the points already has a smaller scale, which is the case
-// if its mean of ρ is below 1/2 at the stored scale. The scale of a line that is rejected is never
-// computed.
+// Stores the line with the smallest scale so far. try_pair() examines the line through two points.
+// If this line has a smaller scale than the stored line, it is refined and replaces the stored
+// line. Its scale is smaller if its mean of ρ is below 1/2 at the stored scale, so the scale of a
+// rejected line need not be computed.
 class SmallestScale {
  public:
   SmallestScale(Points x, Points y) : x_(x), y_(y), least_(least_scale(y)) {}

@@ -95,7 +95,8 @@ bool is_changed_code(const Finding& finding) {
   return finding.check == Check::code && finding.cause == judge::Cause::values_changed;
 }
 
-// Returns the kind of a finding. Changed code is of one kind, whichever statistics have changed.
+// Returns the kind of a finding. All findings about changed code have the same kind, regardless of
+// which statistics have changed.
 std::string group_kind_of(const Finding& finding) {
   return is_changed_code(finding) ? std::string(judge::name_of(finding.cause)) : kind_of(finding);
 }

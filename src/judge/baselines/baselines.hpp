@@ -182,8 +182,8 @@ class Baselines {
 // cannot show this difference.
 [[nodiscard]] double log_spread(std::vector<double> times_ns);
 
-// Returns the checks of the run's plan. If the run does not store them, returns the checks that
-// apply to every plan.
+// Returns the checks of the run's plan. If the run does not store them, returns image, counters,
+// statistics, cost, memory and timing.
 [[nodiscard]] record::Checks checked_in(const record::Run& run);
 
 struct AcceptRequest {

@@ -47,10 +47,10 @@ struct CodeComparison {
   std::vector<std::string> gone;       // executables that no longer exist
   std::vector<std::string> added;      // executables that did not exist before
   std::vector<std::string> assembled;  // executables whose disassembly changed
-  // Returns the common direction of all statistics that affect the verdict. If some of them
-  // improved and others got worse, the inverse throughput decides. If the inverse throughput did
-  // not change or is not reported, returns `worse`, so that a person has to accept the mixed
-  // change. Returns `other` if no changed statistic affects the verdict.
+  // Returns whether the code got better or worse, according to all changed statistics that affect
+  // the verdict. If some of them improved and others got worse, the inverse throughput decides. If
+  // the inverse throughput did not change or is not reported, returns `worse`, so that a person has
+  // to accept the mixed change. Returns `other` if no changed statistic affects the verdict.
   [[nodiscard]] CodeDirection direction() const;
   [[nodiscard]] bool mixed() const;
 };

@@ -85,8 +85,8 @@ class Explanation {
   }
 
   // Adds the level that explains most of the remaining sum of squares. Returns false, which ends
-  // the search, if there is no such level or if the level does not fully explain any further
-  // configuration.
+  // the search, if there is no such level, or if the level leaves as many changes unexplained as
+  // before.
   bool find_level() {
     const FactorLevel* best = nullptr;
     double most = 0;
