@@ -77,7 +77,7 @@ enum class Cause : std::uint8_t {
   no_image,           // the record has no image
   unreadable_image,   // the stored image cannot be read [detail]
   no_reference,       // there is no reference image [detail]
-  reference_changed,  // the reference image differs from the accepted one [because: difference]
+  reference_changed,  // the reference image differs from the accepted one [because: its errors]
   reference_as_stored,
   devices_agree,     // the images of two devices agree [<device> <other> "rms" "allowed"]
   devices_disagree,  // the images of two devices differ [<device> <other> "rms" "allowed"]
