@@ -20,7 +20,7 @@ struct Constants {
   int fault = 0;
   int opacity_form = 0;   // result of technique::opacity_form()
   int preintegrated = 0;  // technique::preintegration_form
-  bool cells = false;     // selects the source of the quadrature `cells`
+  bool cells = false;     // the quadrature `cells`, which has source files of its own
   bool leaps = false;
   bool adapt = false;
   bool parts = false;      // draws the volume one technique::Part at a time

@@ -41,8 +41,8 @@ class TileBuffers {
   void choose(const Api& gl, Cells cells) const;
   // Overwrites all data that a frame writes before it reads them.
   void poison(const Api& gl) const;
-  // Clears the tiles and lists. Also clears the pixels if there may be small spheres, because only
-  // small spheres are drawn into them.
+  // Clears the tiles and all counts. Also clears the pixels if there may be small spheres, because
+  // only small spheres are drawn into them.
   void clear(const Api& gl) const;
   // Begins a round with no large spheres, no entries, and no tiles to draw into.
   void start_round(const Api& gl) const;

@@ -17,9 +17,10 @@ struct Elapsed {
 // The times at which the device takes the two timestamps of a frame.
 enum class Stamps : std::uint8_t {
   in_stream,  // immediately before and after the work, as on GPUs
-  finished  // the second timestamp after the work has finished. Software renderers run compute work
-            // and take timestamps on different threads, so timestamps in the stream measure almost
-            // nothing.
+  // The first timestamp is taken before the work is submitted, and the second after the work has
+  // finished. Software renderers run compute work and take timestamps on different threads, so
+  // timestamps in the stream measure almost nothing.
+  finished
 };
 
 // Measures work by the wall clock and by the device's clock.

@@ -128,9 +128,9 @@ ProbedFeature probe_launch_offset(const Bench& bench) {
 }
 
 // Checks that every command is complete after clFinish, which means that its event has the status
-// CL_COMPLETE. In drivers that complete events late, this is a race, so the probe runs several
-// rounds. Each command takes some milliseconds, so that the last command is still running when
-// clFinish is called.
+// CL_COMPLETE. If a driver completes events late, an event may still happen to be complete in time,
+// so the probe runs several rounds. Each command takes some milliseconds, so that the last command
+// is still running when clFinish is called.
 ProbedFeature probe_event_status(const Bench& bench) {
   constexpr std::size_t numbers = std::size_t{1} << 22U;
   constexpr std::size_t commands = 4;

@@ -23,7 +23,7 @@ struct Constants {
   bool trace = false;
   bool speed_of_light = false;
   int preintegrated = 0;  // technique::preintegration_form
-  bool cells = false;     // selects the source of the quadrature `cells`
+  bool cells = false;     // the quadrature `cells`, which has source files of its own
   bool leaps = false;     // technique::Skip::distance
   bool adapt = false;
   bool parts = false;  // draws the volume one technique::Part at a time

@@ -15,7 +15,7 @@ inline constexpr std::uint32_t commands_binding = first_free_binding;
 // the first pass (technique/particles/cull.glsl: TRI_OCCLUSION).
 enum class CullPass : std::uint8_t { view, seen_before, seen_now };
 
-// The pass that removes cells outside the view, and the draws of the remaining cells.
+// The passes that cull cells, and the draws of the remaining cells.
 class CellCulling {
  public:
   // If `instanced` is true, each particle of a cell is drawn as an instance with four vertices;
