@@ -17,7 +17,8 @@ namespace fs = std::filesystem;
 using test::Result;
 using testing::HasSubstr;
 
-// Replaces the program: records its arguments, and exits with the code in the variable GATE.
+// Replaces the program triptych: records its arguments, and exits with the code in the variable
+// GATE.
 constexpr const char* stand_in_program = R"(#!/bin/sh
 echo "$*" >> calls
 exit ${GATE:-0}

@@ -76,8 +76,8 @@ std::string script_of(const Job& job) {
   return script + "cat summary\nexit $code\n";
 }
 
-// Replaces the program. Whatever devices the job requires, the replacement uses a scripted device
-// and one small scene, and `accept` drops the stored values of all other configurations.
+// Replaces the program triptych. Whatever devices the job requires, the replacement uses a scripted
+// device and one small scene, and `accept` drops the stored values of all other configurations.
 constexpr const char* stand_in = R"(#!/bin/bash
 [ "$1" = gate ] || exec {0} "$@" --drop
 arguments=()

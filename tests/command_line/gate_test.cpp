@@ -89,8 +89,8 @@ TEST(Gate, APartialRunIsCompletedInItsOwnStore) {
       << refused.output;
 }
 
-// The factors `window` and `mapping` (from values to voxels) change the stored voxels of a volume,
-// but not its name.
+// The factors `window` and `mapping`, which define how values are mapped to voxels, change the
+// stored voxels of a volume, but not its name.
 TEST(Gate, WindowsAndMappingsDoNotCountAsChangedData) {
   const Program program;
   program.write("plan", std::string(tiny_plan) +

@@ -46,7 +46,7 @@ TEST(Log, IsShortWithoutATerminal) {
   EXPECT_THAT(program.run(std::string(many) + "--verbose").output, HasSubstr("\n48/48 null:"));
 }
 
-// `script` runs the program on a terminal of this width.
+// The program `script` runs triptych on a terminal, which has 80 columns here.
 TEST(Log, LinesFitInto80Columns) {
   const Program program;
   if (test::run_command("command -v script").code != 0) GTEST_SKIP() << "script is not installed";

@@ -68,8 +68,8 @@ TEST(Reduce, TheFolderContainsEverythingForABugReport) {
   EXPECT_EQ(again.code, 1) << again.output;
 }
 
-// Otherwise, images of another scene that are already in the folder would become part of the bug
-// report.
+// If files of an earlier frame stayed in the folder, images of another scene would become part of
+// the bug report.
 TEST(Reduce, FilesOfAnEarlierFrameAreRemoved) {
   const Program program;
   const std::string render = "render volume --device null:scripted --truth --out r --set viewport=";

@@ -12,9 +12,9 @@ struct Injected {
 };
 
 // Returns the faults, each with a scene that reveals it. The fault `small_sprite` needs small
-// spheres, of which `tiles` tests only the pixels of a rectangle (it tests large spheres for whole
-// quarters of tiles), `unresolved_ties` needs coincident spheres, and `lost_at_border` needs
-// spheres that overlap several tiles.
+// spheres, because `tiles` tests a small sphere only for the pixels of a rectangle, but a large
+// sphere for whole quarters of tiles. The fault `unresolved_ties` needs coincident spheres, and
+// `lost_at_border` needs spheres that overlap several tiles.
 std::vector<Injected> faults() {
   std::vector<Injected> all;
   all.push_back({"small_sprite", generated_work("uniform", 10000, "orbit_y:1/8", 200)});

@@ -32,7 +32,8 @@ double pixels_with_ids(const core::Image& image) {
 }
 
 // Returns the expected error: the number of pixel centres within a convex outline differs from its
-// area by a few times the square root of the outline's length (as for a lattice with random edges).
+// area by a few times the square root of the outline's length (as if the outline crossed the pixels
+// at random positions).
 double lattice_error(double length) {
   return 2 * std::sqrt(length) + 2;
 }

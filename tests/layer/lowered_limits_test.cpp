@@ -151,8 +151,8 @@ TEST_F(LoweredLimits, WallTimeIsUsedWithoutADeviceClock) {
   EXPECT_THAT(timed.output, Not(HasSubstr(" ms (device)")));
 }
 
-// Tests the layer itself: it hides properties of the driver, and rejects uses beyond a limit, which
-// Triptych does not attempt.
+// Tests the layer itself: it hides properties of the driver, and rejects calls that exceed a limit.
+// These limits are lower than the specification permits, so Triptych does not check them.
 TEST_F(LoweredLimits, UseBeyondALimitIsRejected) {
   EXPECT_THAT(layered.draw("noSuchLimit", volume).output, HasSubstr("no device matches vulkan:*"));
   const std::string unasked = layered.draw("maxImageDimension1D=128", volume).output;

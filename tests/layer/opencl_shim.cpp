@@ -26,8 +26,8 @@ Function* real(const char* name) {
 
 std::mutex mutex;
 std::map<cl_kernel, int> launches;
-// Events of launches that end abnormally. Entries are never removed, because a driver reuses the
-// handle of a released event only for another launch that ends abnormally.
+// Events of launches that end abnormally. Entries are never removed, so if the driver reuses the
+// handle of a released event, the new event also counts as abnormal.
 std::set<cl_event> abnormal;
 std::set<cl_event> late;  // events of launches for which nobody has waited
 

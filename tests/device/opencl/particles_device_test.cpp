@@ -48,8 +48,8 @@ TEST(OpenClParticles, SpritesFollowTheFillRule) {
       EXPECT_EQ(counters(device, make_work(technique, around)).at("fragments"), 97U * 83U)
           << technique;
     }
-    // On the axis, the edge of the silhouette is at tan α, where sin α = r/d. Pixels are
-    // 2·tan(fov/2)/83 wide.
+    // On the axis, the edge of the silhouette of a sphere with radius r at the distance d is at tan
+    // α, where sin α = r/d. Pixels are 2·tan(fov/2)/83 wide, because the image has 83 rows.
     const scene::ParticleScene one = seen_from({{0, 0, -4, 1}}, {0, 0, 0}, 60);
     const double edge = std::tan(std::asin(0.25)) * 83 / (2 * std::tan(std::acos(-1.0) / 6));
     // The number is odd, because the centre of one pixel is on the axis.

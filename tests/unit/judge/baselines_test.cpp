@@ -86,7 +86,7 @@ TEST_F(BaselinesTest, ABrokenManifestIsReportedWithItsLine) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
 }
 
-// A careless merge of two branches can leave such a value, even with a corrected checksum.
+// A careless merge of two branches can leave a wrong value, even with a corrected checksum.
 TEST_F(BaselinesTest, AWrongValueIsAnErrorWithItsLine) {
   rewrite("counters.json", "{\n \"x\": {\n  \"samples\": {\"gl:a\": \"many\"}}}\n");
   try {

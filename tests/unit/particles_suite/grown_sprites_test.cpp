@@ -25,8 +25,8 @@ scene::ParticleScene one(double x, double z, double radius, double fov_y_deg) {
 
 // A square on the axis with a half edge of h pixels grows by g pixels on each side. This adds 8·h·g
 // + 4·g² fragments, give or take one pixel along each border. With a field of view of 90° and 200
-// pixels, a pixel has a size of 1/100 at distance 1. The plane of the sprite lies in front of the
-// centre of the sphere by the radius.
+// pixels, a pixel has a size of 1/100 at distance 1. The plane of the sprite lies one radius in
+// front of the centre of the sphere.
 TEST(GrownSprites, OnTheAxisAnEdgeMovesByTheGrowth) {
   const double growth = 3;
   const double plane = 10 - 0.5;

@@ -19,8 +19,8 @@ namespace triptych::reference {
 namespace {
 
 constexpr int voxels = 24;
-// This gradient is steeper than that of any field below. A white, opaque sample is as bright as the
-// ratio of its gradient to this one.
+// This gradient is steeper than that of any field below. The brightness of a white, opaque sample
+// is the ratio of its gradient to this gradient.
 constexpr double steeper = 0.25;
 
 // Returns a scene with a cube of voxels that store value(z), where z is in voxels. The transfer

@@ -31,7 +31,7 @@ TEST(Csv, QuotesFieldsIfNecessaryAndLeavesMissingOnesEmpty) {
   EXPECT_EQ(csv_field(std::string("say \"x\"\n")), "\"say \"\"x\"\"\n\"");
 }
 
-// OpenOffice, Excel and Google Sheets evaluate cells that begin like this.
+// OpenOffice, Excel and Google Sheets evaluate cells that begin with one of these characters.
 TEST(Csv, NoFieldIsAFormula) {
   for (const char* text : {"=1+1", "+1+1", "-1+1", "@SUM(1)", "=cmd|' /C calc'!A0", "＝1", "-"}) {
     const std::string field = csv_field(std::string(text));

@@ -1,5 +1,5 @@
-// Tests views chosen with the mouse: they behave like all other cameras, and each has only one
-// spelling.
+// Tests views chosen with the mouse: they behave like all other cameras, and each can be written in
+// only one way.
 
 #include "scene/free_view.hpp"
 

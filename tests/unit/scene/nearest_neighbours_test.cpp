@@ -43,8 +43,8 @@ TEST(NearestNeighbours, IgnoreEqualAndInfinitePositions) {
   EXPECT_EQ(median_nearest_distance({}), std::nullopt);
 }
 
-// Squared distances of such positions would overflow or underflow, and could not show which
-// position is nearer.
+// Squared distances of positions beyond single precision would overflow or underflow, and could not
+// show which position is nearer.
 TEST(NearestNeighbours, IgnorePositionsBeyondSinglePrecisionAndStayFast) {
   std::vector<Place> places;
   for (int i = 0; i < 1000; ++i) places.push_back({i * 0.5, 0, 0});

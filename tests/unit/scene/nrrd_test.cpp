@@ -36,8 +36,8 @@ void expect_values(const Volume& volume, ScalarType type, const std::vector<T>& 
   EXPECT_EQ(volume.range_hi, static_cast<double>(*std::max_element(values.begin(), values.end())));
 }
 
-// Tests every spelling of a type in both byte orders, in both encodings, and with attached and
-// detached headers.
+// Tests every spelling of a type in both byte orders, uncompressed and with gzip, and with attached
+// and detached headers.
 template <typename T>
 void expect_reads(ScalarType type, const std::vector<std::string>& spellings) {
   const TemporaryFolder folder;

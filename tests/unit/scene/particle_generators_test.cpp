@@ -109,7 +109,7 @@ TEST(ParticleGenerators, UniformFillsATenthOfItsBoxEvenly) {
 
 TEST(ParticleGenerators, DropletsAreDenseInAMostlyEmptyBox) {
   const ParticleSet set = generate_particles("droplets", 40'000, ColourKind::rgba8);
-  // The droplets' cells are cubes with an edge of half a unit.
+  // Collects the cells that contain droplets. A cell is a cube with an edge of half a unit.
   std::set<std::array<int, 3>> cells;
   for (const auto& sphere : set.spheres) {
     cells.insert({static_cast<int>(sphere[0] * 2), static_cast<int>(sphere[1] * 2),

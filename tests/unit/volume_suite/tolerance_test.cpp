@@ -60,7 +60,8 @@ TEST(Tolerance, HoldsForSinglePrecision) {
   for (const glm::dvec3& eye : {glm::dvec3{1, 5, 1}, {-40, 4.1, -30}, {32, 300, 32}}) {
     judge(plate(eye));
   }
-  // Otherwise, the bound might be arbitrarily large.
+  // Some error must come reasonably close to its bound, because the bound could otherwise be
+  // arbitrarily large.
   EXPECT_GT(largest, 0.02);
 }
 
