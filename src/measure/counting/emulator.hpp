@@ -32,7 +32,8 @@ struct Emulator {
 
 // Returns environment variables as "NAME=VALUE" with which the driver of this device, in a process
 // that runs without the emulator, compiles the code that it would compile under the emulator.
-// Returns nullopt if the driver has no such setting, or if the simulated CPU has no name for it.
+// Returns nullopt if the driver has no such variable, or if no value of the variable selects the
+// simulated CPU.
 [[nodiscard]] std::optional<std::vector<std::string>> compiles_for_emulator(
     std::string_view device);
 

@@ -54,8 +54,8 @@ Ruler ruler_of(const std::vector<const Record*>& measured) {
   return std::ranges::all_of(measured, by_device) ? Ruler::device_clock : Ruler::wall_clock;
 }
 
-// Keeps only the fastest of all contestants (measured records that are compared) that have the same
-// levels of the chosen factors.
+// Sorts the contestants (measured records that are compared), and keeps only the fastest contestant
+// for each combination of levels of the chosen factors.
 void keep_fastest(std::vector<Contestant>& contestants, const std::set<std::string>& chosen) {
   std::ranges::stable_sort(contestants, {}, &Contestant::amount);
   std::set<std::string> seen;

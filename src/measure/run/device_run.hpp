@@ -46,8 +46,8 @@ class DeviceRun {
 
   using Ended = WorkerSlot::Ended;
 
-  // All functions throw Interrupted. They throw InputError if the device has changed since the run
-  // began.
+  // The functions below throw Interrupted if a signal asks the program to stop, and InputError if
+  // the device has changed since the run began.
 
   // Measures the configuration by the complete protocol.
   [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
