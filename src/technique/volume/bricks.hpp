@@ -29,12 +29,12 @@ struct BrickLayout {
 //     faces. This includes rounding of up to half a voxel. A preintegrated step whose middle is
 //     inside the brick reads s/2 farther: ⌊s/2 + ¾⌋ more voxels, which allows a quarter of a voxel
 //     for rounding.
-//   - Skip::distance. Leaps make small bricks affordable, and bricks of cells fit as tightly as
-//     possible: a midpoint sample reads only voxels of the brick itself, and a preintegrated step
-//     reads ⌈s/2⌉ voxels beyond it. If rounding moves a sample across a face, the voxels behind the
-//     face have a weight that is as small as the rounding, at most 1e-3. Visibility is widened by
-//     one table entry, which covers this. The edge is 2 cells. It is doubled until the map takes at
-//     most 128 MiB.
+//   - Skip::distance. Bricks can be small, because a ray leaps over many of them at once. They
+//     begin at voxel centres (of_cells), so that a midpoint sample reads only voxels of the brick
+//     itself, and a preintegrated step reads ⌈s/2⌉ voxels beyond it. If rounding moves a sample
+//     across a face, the voxels behind the face have a weight that is as small as the rounding, at
+//     most 1e-3. Visibility is widened by one table entry, which covers this. The edge is 2 cells.
+//     It is doubled until the map takes at most 128 MiB.
 //   - Quadrature::cells reads only the eight voxels of a cell, so it uses bricks of cells for both
 //     kinds of skipping.
 //   - `adapt` (RaycastOptions): shading reads one more voxel, which must be included in the range

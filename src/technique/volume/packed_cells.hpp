@@ -51,11 +51,12 @@ struct TexelLimit {
                                                        const RaycastBuffers& buffers,
                                                        const TexelLimit& most);
 
-// Returns whether packed cells are the fastest exact sampler of a device that runs on the CPU and
-// filters with eight gathers. The cells must take at most a gigabyte and at most `most_texels`
-// texels. In addition, one of these conditions must hold: each sample needs more than one filtered
-// value (`filter_suffices` is false); the cells take only twice the memory that an exact filter
-// reads (u8); or the cells fit into the caches.
+// Returns whether packed cells are the fastest exact sampler of a device that runs on the CPU,
+// where a hardware sampler executes eight gather instructions for each filtered value. The cells
+// must take at most a gigabyte and at most `most_texels` texels. In addition, one of these
+// conditions must hold: each sample needs more than one filtered value (`filter_suffices` is
+// false); the cells take only twice the memory that an exact filter reads (u8); or the cells fit
+// into the caches.
 [[nodiscard]] bool packs_by_default(const std::array<int, 3>& size, scene::VoxelFormat format,
                                     bool filter_suffices, std::uint64_t most_texels);
 

@@ -26,9 +26,9 @@ inline constexpr std::size_t texels_per_pair = 3;
 [[nodiscard]] std::vector<std::array<float, 4>> preintegrated_pairs(
     const scene::TransferFunction& function);
 
-// Returns the value of TRI_PREINTEGRATED for the raycasters: 0 for any other quadrature, 1 if all
-// whole cells of any step can be processed at once, or 2 if their optical depth may be too large
-// for that (TRI_DEEPEST_CHUNK).
+// Returns the value of TRI_PREINTEGRATED for the raycasters: 0 if the quadrature of the scene is
+// not `preintegrated`, 1 if all whole cells of any step can be processed at once, or 2 if their
+// optical depth may be too large for that (TRI_DEEPEST_CHUNK).
 [[nodiscard]] int preintegration_form(const scene::VolumeScene& scene);
 
 }  // namespace triptych::technique
