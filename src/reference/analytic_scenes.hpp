@@ -64,8 +64,8 @@ struct AnalyticPixel {
 //   - The problems along z have g = z/L at voxel centres, where L is the extent of the box along z.
 //     So g is exactly linear between the first and the last voxel centre. In the outermost half
 //     voxels, the field is constant, and so is τ in the closed-form solution.
-//   - v4_gaussian: g = e^(−r²/2σ²), with r the distance from the centre of the box and σ a tenth of
-//     its smallest extent.
+//   - v4_gaussian: g = e^(−r²/(2σ²)), with r the distance from the centre of the box and σ a tenth
+//     of its smallest extent.
 //   - v6_layers: g is 0 in one layer and 1 in the other.
 //   - v7_shell: g is proportional to the distance from the centre, up to 1.
 //   - v8_trilinear: g is the product of x, y and z, each divided by the extent of the box along its

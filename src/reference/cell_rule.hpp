@@ -32,9 +32,10 @@
 // that an end of a piece of length h moves by ε. Then the rule and the integral of a function g
 // change by at most ε·(range of g + h·|g′|/2), with the derivative g′ at the points. For a cubic,
 // h·|g′| ≤ 3√(3/2)·range at the points (Bernstein), so the change is less than 3·ε·range. The six
-// points that are looked up here cover more than three quarters of this range. A cut next to an
-// extremum moves by up to twice the error divided by the slope, because its distance from the
-// extremum exceeds its error. The total factor is therefore 3·4/3·2 = 8.
+// points that are looked up here (two on the piece and two on each of its halves) cover more than
+// three quarters of this range. A cut next to an extremum of the values moves by up to twice the
+// error of the values divided by their slope, because the kink differs from the extremum by more
+// than this error. The total factor is therefore 3·4/3·2 = 8.
 
 #include <algorithm>
 #include <array>
@@ -131,8 +132,8 @@ class CellRule {
 
   [[nodiscard]] bool is_kink(double knot) const { return kinks_[static_cast<std::size_t>(knot)]; }
 
-  // Returns whether an extremum of the field may pass a kink on a device but not in this reference
-  // rule, or vice versa.
+  // Returns whether an extremum of the values along the ray may pass a kink on a device but not in
+  // this reference rule, or vice versa.
   [[nodiscard]] bool touches_a_kink(const Cubic& cubic, double error) const {
     const std::array<double, 4> ends = cubic.monotone_ends();
     return std::any_of(ends.begin() + 1, ends.end() - 1, [&](double s) {

@@ -21,7 +21,7 @@ struct Radiance {
 [[nodiscard]] Radiance v1_constant(double tau, double colour, double length);
 
 // V2: τ = k·t and c = t for 0 ≤ t ≤ 1, k ≥ 0. The premultiplied colour is
-// I = −e^(−k/2) + √(π/2k)·erf √(k/2), and the opacity is A = 1 − e^(−k/2). This follows by
+// I = −e^(−k/2) + √(π/(2k))·erf √(k/2), and the opacity is A = 1 − e^(−k/2). This follows by
 // integration by parts with the transmittance e^(−kt²/2).
 [[nodiscard]] Radiance v2_ramp(double k);
 
@@ -60,7 +60,7 @@ struct LinearSegment {
                                  double colour2, double length2);
 
 // V9: returns the factor by which a central difference over Δ to either side changes the derivative
-// of sin(kx): (sin k(x+Δ) − sin k(x−Δ))/2Δ = k·cos(kx) · sin(kΔ)/(kΔ).
+// of sin(kx): (sin k(x+Δ) − sin k(x−Δ))/(2Δ) = k·cos(kx) · sin(kΔ)/(kΔ).
 [[nodiscard]] double v9_difference_factor(double k, double delta);
 
 // Returns the light of V9, ∫ sinⁿ(φ + ω·t)·τ·e^(−τt) dt over [0, length], with the phase φ, the

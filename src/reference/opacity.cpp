@@ -32,9 +32,10 @@ double step_opacity(double alpha, double steps) {
 
 namespace {
 
-// Returns a bound on the change of the opacity that is fast to compute but valid only for small
-// changes of alpha. It follows from the mean value theorem and needs no further powers. Let α be
-// the opacity per voxel length, δ its change, r = δ/(1−α), and s the number of steps. On
+// Returns a bound on the change of a sample's opacity that is caused by the error of the opacity
+// per voxel length. The bound is fast to compute, because it needs no further powers, but it is
+// valid only for small errors. It follows from the mean value theorem. Let α be the opacity per
+// voxel length, δ its error, r = δ/(1−α), and s the length of the sample in voxels (`steps`). On
 // [α−δ, α+δ], the derivative s·(1−α)^(s−1) is largest at α+δ for s < 1 and at α−δ for s ≥ 1. In
 // both cases it is at most s·(1−α)^s/(1−α)·(1 + z + 2z²) with z = max(1, s)·r, if z ≤ 1/20. For
 // larger z, the function returns a negative number.

@@ -1,7 +1,7 @@
 #pragma once
 // Computes the largest permitted differences between the raycasting counters of two correct
-// devices. Counts differ if they depend on rounding. Such counts are found ray by ray, with the
-// same error bounds as for images.
+// devices. Counts that depend on rounding may differ. Each ray is searched for such counts, with
+// the same error bounds as for images.
 
 #include <map>
 #include <string>

@@ -275,7 +275,8 @@ double PreintegrationBound::colour_error(std::size_t i, const StepOpacity& opaci
   const double cut_offs = std::min(chunks + deep_cells_[i], range * most);
   const double ends = std::min(ends_[i], 2.0 * around_.slope[i] * most);
   // Like the exact colour, a device's colour is a weighted mean of the colours along the path,
-  // apart from the truncation.
+  // apart from the truncation. The error therefore exceeds the range of these colours only by the
+  // error of the truncation.
   return error + std::min(weights + cut_offs + ends, range * most + cut_offs) / most;
 }
 

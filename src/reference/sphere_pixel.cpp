@@ -30,8 +30,9 @@ SpherePicture::SpherePicture(const scene::ParticleScene& scene_, const SphereErr
       tree(scene, growth()) {}
 
 // At distance 1/along from the eye, the ray reaches the plane that is at distance 1 along the view
-// axis. A displacement by ε in that plane rotates the ray by φ with sin φ ≤ x = ε·along, and
-// 2·sin(φ/2) ≤ x/cos(φ/2). For x ≥ 1, even opposite rays are possible.
+// axis, because `along` is the cosine between the ray and this axis. A displacement by ε in that
+// plane rotates the ray by φ with sin φ ≤ x = ε·along, and 2·sin(φ/2) ≤ x/cos(φ/2). For x ≥ 1, even
+// opposite rays are possible.
 double SpherePicture::chord(double pixels, double along) const {
   const double sine = pixels * pixel_ * along;
   if (!(sine < 1)) return 2;
