@@ -23,7 +23,8 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
     plain.why["ert"] = technique.id + " never ends rays early";
   }
   const bool cells = work.scene.quadrature == scene::Quadrature::cells;
-  // With quadrature=cells, a ray visits and counts bricks even if none of them is empty.
+  // With quadrature=cells, skip=distance is never equivalent to skip=none, because a ray visits and
+  // counts bricks even if none of them is empty.
   if (!cells && work.options.skip == technique::Skip::distance &&
       no_brick_is_empty(work.scene, work.options.skip)) {
     plain.levels["skip"] = technique::name_of(technique::Skip::none);

@@ -114,8 +114,8 @@ StressScene stress_octant(std::string_view variant) {
   return scene;
 }
 
-// The scene looks the same from every distance, because the focal length is proportional to the
-// distance.
+// The volume appears at the same size from every distance, because the focal length is proportional
+// to the distance.
 StressScene stress_far(std::string_view variant) {
   double distance = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), distance);

@@ -42,9 +42,9 @@ using scene::looking;
 [[nodiscard]] StressScene lopsided_scene();
 
 // These functions return the expectation that the image matches the image of another variant of the
-// stress case. The parameter `data` is the name of that variant in a plan
-// ("stress:CASE:VARIANT"), and `what` describes the expectation in findings. The images must be
-// bit-identical, or must differ by at most the sum of the two images' error bounds.
+// stress case. The parameter `data` is the name of that variant in a plan ("stress:CASE:VARIANT"),
+// and `what` describes the expectation in findings. same_bits_as() requires bit-identical images.
+// same_within_bounds_as() allows a difference of up to the sum of the two images' error bounds.
 [[nodiscard]] record::Expectation same_bits_as(const std::string& data, std::string what);
 [[nodiscard]] record::Expectation same_within_bounds_as(const std::string& data, std::string what);
 
