@@ -94,8 +94,9 @@ std::string_view first_letters(std::string_view upper) {
   return upper.substr(0, static_cast<std::size_t>(end - upper.begin()));
 }
 
-// Returns whether the residue is organic. AMBER marks the residues at the ends of a chain, for
-// example NALA and CALA, A5 and A3, DA5 and DA3.
+// Returns whether the residue is organic. Also recognizes the residues at the ends of a chain,
+// whose names AMBER marks with an additional character, for example NALA and CALA, A5 and A3, DA5
+// and DA3.
 bool is_organic(const std::string& residue) {
   static const Names known = split_names(organic_residues);
   if (known.contains(residue)) return true;

@@ -30,8 +30,8 @@ double rounded(double value, double unit) {
   return std::round(value / unit) * unit;
 }
 
-// Formats an angle with one decimal. A double cannot represent a tenth exactly, so the string is
-// shortened instead of the number.
+// Formats an angle, rounded to a tenth of a degree, and removes a decimal of 0. The format limits
+// the number of decimals, because a double cannot represent most multiples of a tenth exactly.
 std::string angle(double degree) {
   std::string text = fmt::format("{:.1f}", rounded(degree, 0.1) + 0.0);
   if (text.ends_with(".0")) text.resize(text.size() - 2);

@@ -11,7 +11,8 @@ namespace triptych::scene {
 // Shading with the light at the eye. With the unit normal n and the ray direction d, an opaque
 // surface of colour c is drawn with the colour
 //   c' = c·(ambient + diffuse·|n·d|).
-// For spheres, |n·d| = √(r² − p²)/r, where p is the distance of the centre from the ray.
+// For spheres, |n·d| = √(r² − p²)/r, where r is the radius and p the distance of the centre from
+// the ray.
 struct SphereShading {
   double ambient = 0.3;
   double diffuse = 0.7;
