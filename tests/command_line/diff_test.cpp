@@ -72,7 +72,8 @@ TEST_F(Diff, APlanInOnlyOneStoreCannotBeJudged) {
   EXPECT_THAT(result.output, HasSubstr("plan volume/accuracy exists only on side b"));
 }
 
-// The driver could draw nothing, either before or after the update. That must not count as a pass.
+// The driver could draw nothing before the update and nothing after it. That must not count as a
+// pass.
 TEST_F(Diff, NothingMeasuredCannotBeJudged) {
   for (const char* store : {"old.sqlite", "new.sqlite"}) {
     const Result run =

@@ -68,7 +68,7 @@ TEST(Halves, StayWithinTheBoundOfTheRoundedData) {
 }
 
 // An 8-bit volume stored as half floats stays within the bound of 8-bit voxels, because half floats
-// represent 8-bit values exactly. In the quadrature `cells` and in OpenCL's buffers, both formats
+// represent 8-bit values exactly. With the sampler `packed` and in OpenCL's buffers, both formats
 // reach the kernel as the same integers, so the counts are equal. In OpenCL, whose compilers do not
 // reorder arithmetic, the images are also bit-identical.
 TEST(Halves, OfBytesGiveTheSameImageAndCounts) {

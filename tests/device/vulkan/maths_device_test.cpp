@@ -99,9 +99,9 @@ TEST(VulkanMaths, MatchesTheHost) {
     SCOPED_TRACE(each.info.id);
     const Gpu gpu = open_gpu(each.physical);
     const std::vector<Results> out = on_device(gpu, in);
-    // The functions use only sums, products and quotients. A quotient may have an error of 2.5 ulp,
-    // and sums and products may be contracted to fused operations. On either side, the longest
-    // chain of operations is within 8 ulp of the exact value.
+    // The functions use only sums, products, quotients and square roots. A quotient may have an
+    // error of 2.5 ulp, and sums and products may be contracted to fused operations. On either
+    // side, the longest chain of operations is within 8 ulp of the exact value.
     constexpr std::int64_t allowed = 16;
     for (std::size_t i = 0; i < in.size(); ++i) {
       const Results host = on_host(in[i]);

@@ -223,8 +223,9 @@ ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& opti
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
   const glm::dvec3 size{grid.size[0], grid.size[1], grid.size[2]};
   const glm::dvec3 eye = scene.camera.eye / spacing;
-  // About 20 operations multiply the direction by the distance, which is itself a quotient of
-  // direction components. Computing a sample's position from the result adds 10 products and sums.
+  // The direction results from about 20 operations before it is multiplied by the distance, which
+  // is itself a quotient by a component of the direction. Computing a sample's position from the
+  // result adds 10 products and sums.
   const double reach = glm::length(glm::max(glm::abs(eye), glm::abs(eye - size)));
   ErrorModel model;
   model.position_error_voxels = unit * (glm::length(eye) + 50 * reach);
