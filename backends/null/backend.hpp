@@ -30,7 +30,8 @@
 //     "sleep": false,             true: a frame really takes its reported time
 //     "filter_weight_error": 0,   error of the hardware sampler
 //     "images": {"GLOB": "FILE.exr"},           files that replace the pattern
-//     "failures": [{"kind": "crash", "at": "frame", "frame": 2, "only": "GLOB", "once": "FILE"}]
+//     "failures": [{"kind": "crash", "at": "frame", "frame": 2, "only": "GLOB", "once": "FILE",
+//                   "after": ["GLOB"]}]
 //   }
 // Kinds of failure:
 //   crash           the process aborts
@@ -45,8 +46,10 @@
 // Places ("at"): list, open, supports, prepare, frame, image. "frame" is the 0-based number of the
 // frame since its work was prepared; at "prepare", it is the number of times that the work was
 // prepared before. Without "frame", every frame fails. A failure with "once" creates that file, and
-// does not happen if the file exists. GLOBs have the syntax of fnmatch(3). They are matched against
-// describe(work), but at "open" against the device id, and at "list" against the API.
+// does not happen if the file exists. A failure with "after" happens only if its process has
+// already prepared work that matches each of these globs. GLOBs have the syntax of fnmatch(3). They
+// are matched against describe(work), but at "open" against the device id, and at "list" against
+// the API.
 
 #include <cstdint>
 #include <functional>
@@ -82,6 +85,7 @@ struct Failure {
   std::optional<int> frame;  // Place::frame only
   std::string only = "*";
   std::string once = {};  // the file that limits the failure to one occurrence; empty: no limit
+  std::vector<std::string> after = {};  // globs of work that the process must have prepared
 };
 
 // The calls made to devices of a script, in order: "open null:scripted", "prepare raycast", "frame

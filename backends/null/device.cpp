@@ -194,6 +194,7 @@ class NullDevice final : public measure::Device {
     std::string subject = describe(work);
     const std::size_t earlier = prepares_[subject]++;
     play_failure(*script_, Place::prepare, subject, static_cast<int>(earlier));
+    remember_prepared(subject);
     const auto& factors = script_->prepare_factors;
     const double factor = factor_ * (earlier < factors.size() ? factors[earlier] : 1.0);
     return std::make_unique<NullPrepared>(script_, work, std::move(subject), factor);

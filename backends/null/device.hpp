@@ -28,6 +28,9 @@ void play_failure(const Script& script, Place at, const std::string& subject, in
 // Returns whether `subject` matches the glob, as fnmatch(3) without flags does.
 [[nodiscard]] bool matches(const std::string& glob, const std::string& subject);
 
+// Makes failures with `after` possible that wait for work with this description.
+void remember_prepared(const std::string& description);
+
 void log_call(const Script& script, std::string call);
 
 }  // namespace triptych::null_backend

@@ -7,6 +7,7 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <set>
 #include <thread>
 
 #include "backends/null/device.hpp"
@@ -58,9 +59,21 @@ bool is_of_image(FailureKind kind) {
          kind == FailureKind::stale_image;
 }
 
+// The descriptions of all work that this process has prepared.
+std::set<std::string>& prepared_work() {
+  static std::set<std::string> descriptions;
+  return descriptions;
+}
+
 // Returns whether the failure happens. A failure with `once` happens only in the process that
 // creates the file.
 bool happens(const Failure& failure) {
+  const bool ready = std::ranges::all_of(failure.after, [](const std::string& glob) {
+    return std::ranges::any_of(prepared_work(), [&glob](const std::string& description) {
+      return matches(glob, description);
+    });
+  });
+  if (!ready) return false;
   if (failure.once.empty()) return true;
   const int file = ::open(failure.once.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0600);
   if (file < 0) return false;
@@ -85,8 +98,11 @@ Failure parse_failure(const Json& json) {
       failure.only = text(value, key);
     } else if (key == "once") {
       failure.once = text(value, key);
+    } else if (key == "after") {
+      if (!value.is_array()) refuse(key, "an array of globs");
+      for (const Json& each : value) failure.after.push_back(text(each, key));
     } else if (key != "kind") {
-      refuse(key, "a key of a failure (kind, at, frame, only or once)");
+      refuse(key, "a key of a failure (kind, at, frame, only, once or after)");
     }
   }
   if (of_image && failure.at != Place::image)
@@ -253,6 +269,10 @@ std::optional<FailureKind> image_failure(const Script& script, const std::string
     return happens(failure) ? std::optional(failure.kind) : std::nullopt;
   }
   return std::nullopt;
+}
+
+void remember_prepared(const std::string& description) {
+  prepared_work().insert(description);
 }
 
 void log_call(const Script& script, std::string call) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
 
@@ -14,7 +15,9 @@
 #include "measure/worker/listing.hpp"
 #include "measure/worker/own_program.hpp"
 #include "record/factor_list.hpp"
+#include "record/short_name.hpp"
 #include "reduction/reduce.hpp"
+#include "reduction/sequence.hpp"
 #include "reduction/trial.hpp"
 #include "report/ci/bug_report.hpp"
 #include "report/command.hpp"
@@ -30,7 +33,8 @@ namespace fs = std::filesystem;
 struct ReduceArguments {
   FrameArguments frame = {.out = "reduced"};
   std::string against;
-  int limit_s = 0;  // 0: derived from the duration of the first frame
+  std::string after;  // a plan; empty: the frame is only drawn alone
+  int limit_s = 0;    // 0: derived from the duration of the first frame
   int frames = 500;
   // Accepted, but ignored, so that the options of a `render` command also work for `reduce`, which
   // always compares with the reference image.
@@ -148,6 +152,163 @@ report::BugReport report_of(const OneFrame& frame, const reduction::Reduction& r
   return report;
 }
 
+// Everything that a search needs, and the folder to which it writes its result.
+struct Search {
+  const ReduceArguments& arguments;
+  const Registry& registry;
+  const OneFrame& frame;
+  const record::Store& store;
+  measure::Truths& truths;
+  reduction::Trial& trial;
+  fs::path out;
+};
+
+// Completes the report about the frame that was drawn last, writes it, and prints its summary.
+// `found` states in words what the search found.
+core::ExitCode publish(const Search& search, report::BugReport report, const std::string& found) {
+  report.device = search.trial.device();
+  report.system = search.store.runs().front().system;
+  for (std::string& file : write_frame(search.frame, search.trial, search.truths, search.out)) {
+    report.files.push_back(std::move(file));
+  }
+  core::write_text(search.out / "README.md", report::markdown(report));
+  put_lines(fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames, found,
+                        report.complete ? "" : "; the search stopped at the limit set by --frames",
+                        (search.out / "README.md").string(), report.command));
+  return core::ExitCode::regression;
+}
+
+core::ExitCode reduce_frame(const Search& search, const reduction::Failure& first) {
+  const auto on_step = [](const reduction::Step& step) {
+    say("{:>4} frames: {} {} → {}\n", step.frame, step.factor, step.from, step.to);
+  };
+  const measure::Configuration& start = search.frame.plan.configurations.front();
+  const reduction::Reduction reduction = reduction::reduce(
+      search.frame.suite, start, first, search.arguments.frames, std::ref(search.trial), on_step);
+  static_cast<void>(search.trial(reduction.smallest));
+  report::BugReport report = report_of(search.frame, reduction);
+  report.files = write_dump_of(search.frame, search.arguments, search.trial, search.truths,
+                               reduction.failure.reason.limit(), search.out);
+  report.command = command_for(search.frame, search.arguments, reduction.failure,
+                               search.trial.last(), search.trial.device());
+  return publish(search, report, report::text_of(report.changes));
+}
+
+// The configurations that a plan draws up to a frame, and their names.
+class Beginning {
+ public:
+  Beginning(const Search& search, const std::string& plan) : suite_(search.frame.suite) {
+    measure::Plan whole = PlanChoice{}.load(plan, search.registry.find_suite());
+    plan_ = whole.name;
+    const std::string last = key(search.frame.plan.configurations.front());
+    const auto found =
+        std::ranges::find_if(whole.configurations, [&](const measure::Configuration& each) {
+          return whole.suite == suite_.name() && key(each) == last;
+        });
+    if (found == whole.configurations.end()) {
+      throw core::InputError(fmt::format(
+          "--after {}: this plan does not contain the frame; name the plan in which it failed",
+          plan));
+    }
+    whole.configurations.erase(found, whole.configurations.end());
+    before_ = std::move(whole.configurations);
+  }
+
+  [[nodiscard]] std::size_t size() const { return before_.size(); }
+  [[nodiscard]] std::vector<measure::Configuration> at(
+      const reduction::Positions& positions) const {
+    std::vector<measure::Configuration> chosen;
+    for (const std::size_t each : positions) chosen.push_back(before_[each]);
+    return chosen;
+  }
+  [[nodiscard]] std::string key(const measure::Configuration& configuration) const {
+    return measure::configuration_key(suite_, configuration);
+  }
+  [[nodiscard]] std::string name(const measure::Configuration& configuration) const {
+    return record::short_name(suite_.name(), plan_, key(configuration));
+  }
+
+ private:
+  const measure::Suite& suite_;
+  std::string plan_;
+  std::vector<measure::Configuration> before_;
+};
+
+// Returns the command that draws the listed configurations in one process, and judges the images or
+// the counters.
+std::string command_for_sequence(const Search& search, const reduction::Failure& failure,
+                                 const fs::path& list) {
+  const bool picture = failure.cause != judge::Cause::values_changed;
+  return report::text_of(
+      {.command = "gate",
+       .object = search.arguments.after,
+       .device = search.frame.device,
+       .factors = {},
+       .injected = search.arguments.frame.faults,
+       .limit = failure.reason.limit(),
+       .more = {"--measure", "--check", picture ? "image" : "counters", "--caselist", list.string(),
+                "--store", (search.out / "again.sqlite").string()},
+       .environment = search.trial.device().environment});
+}
+
+// Writes and prints the sequence `before`, after which the frame has just failed.
+core::ExitCode publish_sequence(const Search& search, const Beginning& beginning,
+                                const std::vector<measure::Configuration>& before,
+                                const reduction::Failure& failure, report::BugReport report) {
+  const measure::Configuration& frame = search.frame.plan.configurations.front();
+  const fs::path list = search.out / "sequence.txt";
+  std::string keys;
+  std::string found = fmt::format("the frame fails after {} of {} configurations:", before.size(),
+                                  beginning.size());
+  for (const measure::Configuration& each : before) {
+    report.before.push_back(beginning.name(each));
+    found += "\n  " + report.before.back();
+    keys += beginning.key(each) + "\n";
+  }
+  core::write_text(list, keys + beginning.key(frame) + "\n");
+  report.files = {"sequence.txt"};
+  report.message = report::words::text_of(failure);
+  report.plan = search.arguments.after;
+  report.factors = frame;
+  report.command = command_for_sequence(search, failure, list);
+  return publish(search, std::move(report), found);
+}
+
+// Finds the shortest sequence of configurations after which the frame fails.
+core::ExitCode reduce_sequence(const Search& search) {
+  const measure::Configuration& frame = search.frame.plan.configurations.front();
+  const Beginning beginning(search, search.arguments.after);
+  std::optional<reduction::Failure> failure;
+  report::BugReport report;
+  const auto fails_after = [&](const reduction::Positions& positions) {
+    report.frames += static_cast<int>(positions.size()) + 1;
+    const auto now = search.trial.after(beginning.at(positions), frame);
+    if (!now || (failure && !reduction::is_same_kind(*now, *failure))) return false;
+    failure = now;
+    return true;
+  };
+  const auto on_shorter = [&](std::size_t length) {
+    say("{:>4} frames: fails after {} of {} configurations\n", report.frames, length,
+        beginning.size());
+  };
+  const auto sequence = reduction::shortest_sequence(
+      beginning.size(), static_cast<std::size_t>(search.arguments.frames), fails_after, on_shorter);
+  if (!sequence) {
+    put("the frame does not fail on {}, neither alone nor after the {} configurations that {} "
+        "draws "
+        "before it\n",
+        search.frame.device, beginning.size(), search.arguments.after);
+    return core::ExitCode::pass;
+  }
+  report.complete = sequence->complete;
+  const std::vector<measure::Configuration> before = beginning.at(sequence->before);
+  const auto again = search.trial.after(before, frame);
+  if (!again || !reduction::is_same_kind(*again, *failure)) {
+    throw core::NotSupported(report::words::fails_differently(*failure, again));
+  }
+  return publish_sequence(search, beginning, before, *again, std::move(report));
+}
+
 core::ExitCode reduce(const ReduceArguments& arguments) {
   const Registry registry = make_registry();
   const OneFrame frame = choose_frame(registry, arguments.frame);
@@ -169,36 +330,20 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
         reduction::limit_by_first_frame(frame.suite, frame.device, start, options, store);
   }
   reduction::Trial trial(frame.suite, frame.device, other, options, truths, store);
+  const Search search{arguments, registry, frame, store, truths, trial, out};
   const reduction::FirstFrames first = trial.first(start);
   if (!first.first) {
-    put("the frame does not fail on {}, so there is nothing to reduce\n", frame.device);
+    if (!arguments.after.empty()) return reduce_sequence(search);
+    put("the frame does not fail on {}, so there is nothing to reduce; if it failed in a plan, add "
+        "--after PLAN\n",
+        frame.device);
     return core::ExitCode::pass;
   }
   if (!first.repeats()) {
     throw core::NotSupported(report::words::fails_differently(*first.first, first.again));
   }
   say("{}: {}\n", frame.device, report::words::text_of(*first.again));
-  const auto on_step = [](const reduction::Step& step) {
-    say("{:>4} frames: {} {} → {}\n", step.frame, step.factor, step.from, step.to);
-  };
-  const reduction::Reduction reduction = reduction::reduce(
-      frame.suite, start, *first.again, arguments.frames, std::ref(trial), on_step);
-  static_cast<void>(trial(reduction.smallest));
-  report::BugReport report = report_of(frame, reduction);
-  report.device = trial.device();
-  report.system = store.runs().front().system;
-  report.files = write_frame(frame, trial, truths, out);
-  for (std::string& file :
-       write_dump_of(frame, arguments, trial, truths, reduction.failure.reason.limit(), out)) {
-    report.files.push_back(std::move(file));
-  }
-  report.command = command_for(frame, arguments, reduction.failure, trial.last(), report.device);
-  core::write_text(out / "README.md", report::markdown(report));
-  put_lines(fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames,
-                        report::text_of(report.changes),
-                        report.complete ? "" : "; the search stopped at the limit set by --frames",
-                        (out / "README.md").string(), report.command));
-  return core::ExitCode::regression;
+  return reduce_frame(search, *first.again);
 }
 
 }  // namespace
@@ -213,6 +358,9 @@ void add_reduce_command(Commands& commands) {
   command.add_option("--against", arguments.against,
                      "Assume that the counters of this device are correct, and treat any "
                      "difference from them as a failure");
+  command.add_option("--after", arguments.after,
+                     "If the frame does not fail alone, find the shortest sequence of this plan's "
+                     "configurations after which it fails");
   command
       .add_option(
           "--limit", arguments.limit_s,

@@ -8,7 +8,10 @@ namespace triptych::reduction {
 
 Trial::Trial(const measure::Suite& suite, const std::string& device, const std::string& other,
              const measure::RunOptions& options, measure::Truths& truths, record::Store& store)
-    : truths_(truths), frames_(suite, device, store, options, interrupts_) {
+    : truths_(truths), replace_worker_([this, &suite, device, &store, options] {
+        frames_.emplace(suite, device, store, options, interrupts_);
+      }) {
+  replace_worker_();
   if (other.empty()) return;
   measure::RunOptions healthy = options;
   healthy.faults.clear();
@@ -16,8 +19,16 @@ Trial::Trial(const measure::Suite& suite, const std::string& device, const std::
 }
 
 std::optional<Failure> Trial::operator()(const measure::Configuration& configuration) {
-  last_ = frames_.draw(configuration);
+  last_ = frames_->draw(configuration);
   return failure_of(last_, evidence(configuration));
+}
+
+std::optional<Failure> Trial::after(std::span<const measure::Configuration> before,
+                                    const measure::Configuration& configuration) {
+  frames_.reset();
+  replace_worker_();
+  for (const measure::Configuration& each : before) static_cast<void>(frames_->draw(each));
+  return (*this)(configuration);
 }
 
 Evidence Trial::evidence(const measure::Configuration& configuration) {

@@ -2,7 +2,9 @@
 // Draws frames on one device, one at a time, and determines how each frame fails.
 
 #include <chrono>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "measure/run/runner.hpp"
@@ -36,15 +38,21 @@ class Trial {
   // skipped.
   [[nodiscard]] FirstFrames first(const measure::Configuration& start);
 
+  // Draws the configurations of `before` and then `configuration`, all in a new worker process, and
+  // returns how the last one fails.
+  std::optional<Failure> after(std::span<const measure::Configuration> before,
+                               const measure::Configuration& configuration);
+
   [[nodiscard]] const record::Record& last() const noexcept { return last_; }
-  [[nodiscard]] record::Device device() const { return frames_.device(); }
+  [[nodiscard]] record::Device device() const { return frames_->device(); }
 
  private:
   [[nodiscard]] Evidence evidence(const measure::Configuration& configuration);
 
   measure::InterruptGuard interrupts_;
   measure::Truths& truths_;
-  measure::SingleFrames frames_;
+  std::function<void()> replace_worker_;
+  std::optional<measure::SingleFrames> frames_;
   std::optional<measure::SingleFrames> other_;
   record::Record last_;
 };

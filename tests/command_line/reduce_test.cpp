@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "program.hpp"
 #include "right_picture.hpp"
 
@@ -100,7 +102,68 @@ TEST(Reduce, AFrameThatDoesNotFailPasses) {
       program.run(std::string("reduce volume --out r --set step=0.5 ") + tiny, script);
   EXPECT_EQ(result.code, 0) << result.output;
   EXPECT_EQ(result.output,
-            "the frame does not fail on null:scripted, so there is nothing to reduce\n");
+            "the frame does not fail on null:scripted, so there is nothing to reduce; if it failed "
+            "in a plan, add --after PLAN\n");
+}
+
+// A frame that crashes only if two other configurations were drawn before it in the same process.
+class ReduceAfter : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    program_.write("order.yaml", R"(
+suite: volume
+summary: Eight levels of one factor
+technique: [raycast]
+data: [generate:gaussian_blob:16]
+transfer_function: [haze]
+viewport: [16]
+step: [0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 1]
+)");
+  }
+
+  Result reduce(const std::string& after, const std::string& more = "") {
+    const std::string script = fmt::format(
+        R"({{"images": {{"*": "{}"}}, "base_ns": 1e5, "failures": [
+            {{"kind": "crash", "at": "frame", "only": "*step=0.5,*", "after": [{}]}}]}})",
+        right_picture(program_).string(), after);
+    script_ = script;
+    return program_.run(
+        fmt::format("reduce volume --out r --set step=0.5 {}--after order.yaml {}", tiny, more),
+        script);
+  }
+
+  Program program_;
+  std::string script_;
+};
+
+TEST_F(ReduceAfter, TheShortestSequenceIsFoundAndReproduced) {
+  const Result result = reduce(R"("*step=0.25,*", "*step=0.4,*")");
+  ASSERT_EQ(result.code, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("the frame fails after 2 of 6 configurations:"));
+  const std::string list = program_.read("r/sequence.txt");
+  EXPECT_EQ(std::ranges::count(list, '\n'), 3) << list;
+  EXPECT_LT(list.find("step=0.25,"), list.find("step=0.4,"));
+  EXPECT_LT(list.find("step=0.4,"), list.find("step=0.5,"));
+  EXPECT_THAT(program_.read("r/README.md"), HasSubstr("## The configurations before it"));
+  const Result again = program_.run(last_command(result.output), script_);
+  EXPECT_THAT(again.output, HasSubstr("SIGABRT"));
+}
+
+TEST_F(ReduceAfter, ConfigurationsAfterTheFrameAreNotDrawn) {
+  const Result result = reduce(R"("*step=1,*")");
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("neither alone nor after the 6 configurations"));
+}
+
+TEST_F(ReduceAfter, ALimitedSearchTriesTheWholeListAndSaysThatItIsIncomplete) {
+  const Result result = reduce(R"("*step=0.2,*")", "--frames 3");
+  EXPECT_EQ(result.code, 1) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("the search stopped at the limit set by --frames"));
+}
+
+TEST_F(ReduceAfter, APlanWithoutTheFrameIsRejected) {
+  const Result result = reduce(R"("*")", "--set step=0.125");
+  EXPECT_EQ(result.code, 3) << result.output;
 }
 
 TEST(Reduce, ReachingTheFrameLimitIsReported) {

@@ -39,6 +39,7 @@ constexpr std::array files{
     File{"frame.json", "camera, scene, transfer function and every factor"},
     File{"image.png",
          "the device's image (`image.exr`: the same image with linear, premultiplied floats)"},
+    File{"sequence.txt", "the configurations to draw, for `--caselist`"},
     File{"truth.png",
          "the reference image, rendered in double precision (`truth.exr`: the same image with "
          "floats)"},
@@ -63,6 +64,33 @@ std::string list_of_files(const BugReport& report) {
   return text;
 }
 
+std::string sequence(const BugReport& report) {
+  std::string text = fmt::format(
+      "\n## The configurations before it\n\nIf the frame is drawn alone, it does not fail. It "
+      "fails "
+      "if the same process has first drawn these configurations of {}:\n\n",
+      markdown_escaped(report.plan));
+  for (const std::string& name : report.before) {
+    text += fmt::format("1. {}\n", markdown_escaped(name));
+  }
+  return text;
+}
+
+// States how far the search got.
+std::string_view end_of_search(const BugReport& report) {
+  if (report.before.empty()) {
+    return report.complete ? "If any factor is simplified further, the frame no longer fails in "
+                             "this way.\n"
+                           : "The search reached the maximum number of frames, so a simpler frame "
+                             "may also fail.\n";
+  }
+  return report.complete
+             ? "If any of these configurations is left out, the frame no longer fails in this "
+               "way.\n"
+             : "The search reached the maximum number of frames, so fewer configurations may also "
+               "make the frame fail.\n";
+}
+
 }  // namespace
 
 std::string text_of(const std::vector<BugReport::Change>& changes) {
@@ -83,12 +111,12 @@ std::string markdown(const BugReport& report) {
           list_of_files(report);
   text += "\n## The frame\n\n| factor | level |\n|---|---|\n";
   for (const auto& [factor, level] : report.factors) text += row(factor, level);
-  text += fmt::format("\nThe search drew {} frames. It simplified: {}.\n", report.frames,
-                      markdown_escaped(text_of(report.changes)));
-  text +=
-      report.complete
-          ? "If any factor is simplified further, the frame no longer fails in this way.\n"
-          : "The search reached the maximum number of frames, so a simpler frame may also fail.\n";
+  if (!report.before.empty()) text += sequence(report);
+  text += fmt::format("\nThe search drew {} frames.", report.frames);
+  if (report.before.empty()) {
+    text += fmt::format(" It simplified: {}.", markdown_escaped(text_of(report.changes)));
+  }
+  text += fmt::format("\n{}", end_of_search(report));
   return text;
 }
 

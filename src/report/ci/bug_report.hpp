@@ -22,9 +22,14 @@ struct BugReport {
     std::string to;
   };
   std::vector<Change> changes;
+  // If the frame fails only after other configurations: the plan, and the names of these
+  // configurations in the order in which they are drawn. `changes` is empty in this case.
+  std::string plan = {};
+  std::vector<std::string> before = {};
   std::map<std::string, std::string> factors;  // all factors, with their simplified levels
   int frames = 0;                              // number of frames that the search drew
-  bool complete = true;            // whether the search found that no simpler frame fails
+  bool complete = true;            // whether the search found that no simpler frame, or no shorter
+                                   // sequence, fails
   std::vector<std::string> files;  // files that belong to the report
 };
 
