@@ -30,12 +30,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int most_frames = 1000000;
+
 struct ReduceArguments {
   FrameArguments frame = {.out = "reduced"};
   std::string against;
   std::string after;  // a plan; empty: the frame is only drawn alone
   int limit_s = 0;    // 0: derived from the duration of the first frame
-  int frames = 500;
+  std::optional<int> frames = {};
   // Accepted, but ignored, so that the options of a `render` command also work for `reduce`, which
   // always compares with the reference image.
   bool truth = true;
@@ -155,7 +157,6 @@ report::BugReport report_of(const OneFrame& frame, const reduction::Reduction& r
 // Everything that a search needs, and the folder to which it writes its result.
 struct Search {
   const ReduceArguments& arguments;
-  const Registry& registry;
   const OneFrame& frame;
   const record::Store& store;
   measure::Truths& truths;
@@ -183,8 +184,9 @@ core::ExitCode reduce_frame(const Search& search, const reduction::Failure& firs
     say("{:>4} frames: {} {} → {}\n", step.frame, step.factor, step.from, step.to);
   };
   const measure::Configuration& start = search.frame.plan.configurations.front();
-  const reduction::Reduction reduction = reduction::reduce(
-      search.frame.suite, start, first, search.arguments.frames, std::ref(search.trial), on_step);
+  const reduction::Reduction reduction =
+      reduction::reduce(search.frame.suite, start, first, search.arguments.frames.value_or(500),
+                        std::ref(search.trial), on_step);
   static_cast<void>(search.trial(reduction.smallest));
   report::BugReport report = report_of(search.frame, reduction);
   report.files = write_dump_of(search.frame, search.arguments, search.trial, search.truths,
@@ -197,10 +199,12 @@ core::ExitCode reduce_frame(const Search& search, const reduction::Failure& firs
 // The configurations that a plan draws up to a frame, and their names.
 class Beginning {
  public:
-  Beginning(const Search& search, const std::string& plan) : suite_(search.frame.suite) {
-    measure::Plan whole = PlanChoice{}.load(plan, search.registry.find_suite());
+  // Throws core::InputError if the plan does not contain the frame.
+  Beginning(const Registry& registry, const OneFrame& frame, const std::string& plan)
+      : suite_(frame.suite) {
+    measure::Plan whole = PlanChoice{}.load(plan, registry.find_suite());
     plan_ = whole.name;
-    const std::string last = key(search.frame.plan.configurations.front());
+    const std::string last = key(frame.plan.configurations.front());
     const auto found =
         std::ranges::find_if(whole.configurations, [&](const measure::Configuration& each) {
           return whole.suite == suite_.name() && key(each) == last;
@@ -275,9 +279,8 @@ core::ExitCode publish_sequence(const Search& search, const Beginning& beginning
 }
 
 // Finds the shortest sequence of configurations after which the frame fails.
-core::ExitCode reduce_sequence(const Search& search) {
+core::ExitCode reduce_sequence(const Search& search, const Beginning& beginning) {
   const measure::Configuration& frame = search.frame.plan.configurations.front();
-  const Beginning beginning(search, search.arguments.after);
   std::optional<reduction::Failure> failure;
   report::BugReport report;
   const auto fails_after = [&](const reduction::Positions& positions) {
@@ -292,11 +295,11 @@ core::ExitCode reduce_sequence(const Search& search) {
         beginning.size());
   };
   const auto sequence = reduction::shortest_sequence(
-      beginning.size(), static_cast<std::size_t>(search.arguments.frames), fails_after, on_shorter);
+      beginning.size(), static_cast<std::size_t>(search.arguments.frames.value_or(most_frames)),
+      fails_after, on_shorter);
   if (!sequence) {
     put("the frame does not fail on {}, neither alone nor after the {} configurations that {} "
-        "draws "
-        "before it\n",
+        "draws before it\n",
         search.frame.device, beginning.size(), search.arguments.after);
     return core::ExitCode::pass;
   }
@@ -312,6 +315,8 @@ core::ExitCode reduce_sequence(const Search& search) {
 core::ExitCode reduce(const ReduceArguments& arguments) {
   const Registry registry = make_registry();
   const OneFrame frame = choose_frame(registry, arguments.frame);
+  std::optional<Beginning> beginning;
+  if (!arguments.after.empty()) beginning.emplace(registry, frame, arguments.after);
   const fs::path out(arguments.frame.out);
   // A README.md without frame.json next to it was not written by `reduce`, so it is kept.
   if (fs::exists(out / "frame.json")) fs::remove(out / "README.md");
@@ -330,10 +335,10 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
         reduction::limit_by_first_frame(frame.suite, frame.device, start, options, store);
   }
   reduction::Trial trial(frame.suite, frame.device, other, options, truths, store);
-  const Search search{arguments, registry, frame, store, truths, trial, out};
+  const Search search{arguments, frame, store, truths, trial, out};
   const reduction::FirstFrames first = trial.first(start);
   if (!first.first) {
-    if (!arguments.after.empty()) return reduce_sequence(search);
+    if (beginning) return reduce_sequence(search, *beginning);
     put("the frame does not fail on {}, so there is nothing to reduce; if it failed in a plan, add "
         "--after PLAN\n",
         frame.device);
@@ -367,9 +372,10 @@ void add_reduce_command(Commands& commands) {
           "Treat a frame as hung after this many seconds (default: three times the duration "
           "of the first frame, but at least 20)")
       ->check(CLI::Range(1, 86400));
-  command.add_option("--frames", arguments.frames, "Draw at most this many frames")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
+  command
+      .add_option("--frames", arguments.frames,
+                  "Draw at most this many frames (default: 500; with --after, 1000000)")
+      ->check(CLI::Range(1, most_frames));
   command.add_flag("--truth", arguments.truth,
                    "Has no effect, because `reduce` always compares with the reference image; this "
                    "option exists so that a `render` command can be reused");

@@ -128,7 +128,7 @@ step: [0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 1]
         right_picture(program_).string(), after);
     script_ = script;
     return program_.run(
-        fmt::format("reduce volume --out r --set step=0.5 {}--after order.yaml {}", tiny, more),
+        fmt::format("reduce volume --out r --set step=0.5 {} --after order.yaml {}", tiny, more),
         script);
   }
 
@@ -162,8 +162,10 @@ TEST_F(ReduceAfter, ALimitedSearchTriesTheWholeListAndSaysThatItIsIncomplete) {
 }
 
 TEST_F(ReduceAfter, APlanWithoutTheFrameIsRejected) {
-  const Result result = reduce(R"("*")", "--set step=0.125");
+  program_.write("order.yaml", tiny_plan);
+  const Result result = reduce(R"("*")");
   EXPECT_EQ(result.code, 3) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("--after order.yaml"));
 }
 
 TEST(Reduce, ReachingTheFrameLimitIsReported) {
