@@ -275,8 +275,11 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, typed, arguments.store), baselines.folder(), request);
   for (const std::string& change : changes) put_lines(change + "\n");
-  put("{}: {} changes in {}; review them before you commit\n", plan, changes.size(),
-      baselines.name().string());
+  if (changes.empty()) {
+    put("{}: the baselines in {} are unchanged\n", plan, baselines.name().string());
+  } else {
+    put("{}: review these changes in {} before you commit\n", plan, baselines.name().string());
+  }
 }
 
 // Returns the plans that the user names, or all plans in the store if the user names none.
