@@ -59,6 +59,9 @@ def small(words):
     # Data files are not available, so they are replaced by generated data of the same kind.
     generated = "generate:uniform:10" if " particles" in words else "generate:gaussian_blob:8"
     words = re.sub(r"\bdata=[\w-]+\.\w[\w.]*", f"data={generated}", words)
+    if "--after" in words:  # the plan must contain the frame
+        words = re.sub(r" --set \S+", "", words)
+        words += " --set technique=raycast --set data=generate:gaussian_blob:8 --set transfer_function=surfaces --set viewport=8"
     if name in ("gate", "accept"):
         words += " --baselines baselines" if "--base " not in words else ""
     if name in ("gate", "run") and "--device" not in words:
