@@ -53,8 +53,10 @@ dvec3 unit(const dvec3& v) {
   return v / std::sqrt(glm::dot(v, v));
 }
 
-// Returns the unit vector orthogonal to `forward` that is closest to +y. If the view is (nearly)
-// along y, returns the up vector that a camera on orbit_x would have at that position.
+// Returns the unit vector orthogonal to `forward` that is closest to +y. If `forward` is (nearly)
+// parallel to y, returns the vector that is closest to −z for a camera that looks down, or to +z
+// for a camera that looks up. A camera on orbit_x has the same up vector when it looks in that
+// direction.
 dvec3 upright(const dvec3& forward) {
   const bool steep = std::abs(forward.y) > 0.999;
   const dvec3 wish = steep ? dvec3(0, 0, forward.y < 0 ? -1 : 1) : dvec3(0, 1, 0);
@@ -139,7 +141,8 @@ Pose random_pose(const Stage& stage, core::Random& random) {
   return pose;
 }
 
-// Returns the fraction of the centres of the box's 8×8×8 cells that lie inside the square frustum.
+// Divides the box into 8×8×8 cells, and returns the fraction of their centres that lie inside the
+// view of a camera with this pose and a square image.
 double coverage(const Stage& stage, const Pose& pose) {
   constexpr int cells = 8;
   const dvec3 right = glm::cross(pose.forward, pose.up);
@@ -157,8 +160,9 @@ double coverage(const Stage& stage, const Pose& pose) {
 }
 
 Pose random_view(const Stage& stage, std::uint64_t seed) {
-  // For any box, this loop needs only a few iterations, because a camera farther away than L/2 + D
-  // (see camera.hpp) sees most of the box.
+  // For any box, this loop needs only a few iterations. The distance of a random camera from its
+  // target is between 0.3 and 1.2 times the radius of the orbits, and a camera that is farther away
+  // than this radius sees most of the box.
   core::Random random(seed);
   Pose pose = random_pose(stage, random);
   while (coverage(stage, pose) < random_view_coverage) pose = random_pose(stage, random);

@@ -17,8 +17,9 @@ namespace {
 // high as it is wide.
 class SmallPicture {
  public:
-  // The image has at most `most_columns` columns and `most_rows` rows. For a volume, these are the
-  // numbers of voxels along x and y, so that no cell remains empty.
+  // The image has at most `most_columns` columns and `most_rows` rows. For a volume, the caller
+  // passes the numbers of voxels along x and y, so that every character cell contains at least one
+  // voxel.
   SmallPicture(double width, double height, std::size_t most_columns, std::size_t most_rows) {
     constexpr double longest = 56;
     const double scale = longest / std::max({width, height, std::numeric_limits<double>::min()});

@@ -10,12 +10,13 @@
 namespace triptych::scene {
 
 // Returns lines that describe a volume: format, size, spacing and extent with their unit,
-// orientation, range and percentiles of the values, a small image (the largest value along z), and
-// the reader's notes.
+// orientation, range and percentiles of the values, a small text image that shows the largest value
+// along z, and the notes of the file reader.
 [[nodiscard]] std::vector<std::string> summary_of(const Volume& volume);
 
 // Returns lines that describe a particle set: format, counts by element or type, extent, radii, a
-// small image (the number of centres along z), and the reader's notes.
+// small text image that shows the number of particle centres along z, and the notes of the file
+// reader.
 [[nodiscard]] std::vector<std::string> summary_of(const ParticleSet& set);
 
 }  // namespace triptych::scene

@@ -18,8 +18,9 @@ namespace {
 
 using Names = std::set<std::string, std::less<>>;
 
-// Residues that contain only the elements H, C, N, O, P and S: the PDB's standard residues, and the
-// residues of the force fields AMBER, CHARMM, GROMOS and OPLS in the spelling of their programs.
+// Residues that contain only the elements H, C, N, O, P and S. The list contains the PDB's standard
+// residues and the residues of the force fields AMBER, CHARMM, GROMOS and OPLS, spelled as in the
+// programs that use these force fields.
 constexpr std::string_view organic_residues =
     // amino acids, their protonation states and caps
     "ALA ARG ASN ASP CYS GLN GLU GLY HIS ILE LEU LYS MET PHE PRO SER THR TRP TYR VAL ASX GLX PYL "
@@ -63,9 +64,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 18> ion_name
                                                                                    {"IP", "Na"},
                                                                                    {"BRO", "Br"}}};
 
-// Two-letter symbols that cannot be mistaken for an organic atom. They begin like an organic
-// element, but the name of an organic atom continues with a Greek letter (A, B, G, D, E, Z, H) or
-// with the letter of a bound atom.
+// Two-letter symbols that are not mistaken for the name of an organic atom. Such a name begins with
+// a one-letter symbol. The second letter is a Greek letter in Latin transcription (A, B, G, D, E,
+// Z, H) or the symbol of a bound atom. The combinations in this list are not common as such names.
 constexpr std::string_view clear_symbols = "CL BR SI SE FE CU NI PT PB CR IR";
 constexpr std::string_view one_letter_symbols = "HBCNOFPSKVYIWUD";
 
@@ -127,8 +128,8 @@ std::string element_of_ion(std::string_view atom, std::string_view residue) {
   const std::string symbol = ion_symbol(atom);
   if (symbol.empty()) return {};
   if (atom == residue || residue == "ION" || residue == "IONS") return symbol;
-  // The atom's name may be an element's symbol and the residue's name a force field's spelling, or
-  // vice versa.
+  // One of the two names may be an element's symbol, such as NA, while the other is a force field's
+  // spelling of the same ion, such as SOD.
   const bool spelled = !ion_of(residue).empty() || !ion_of(atom).empty();
   return spelled && ion_symbol(residue) == symbol ? symbol : std::string{};
 }
@@ -181,8 +182,9 @@ std::optional<Unnamed> as_unnamed(std::string_view kind) {
   return Unnamed{kind.substr(0, end), kind.substr(end + 1)};
 }
 
-// Returns whether the atom names in known residues are aligned so that symbols end in the second
-// column. Some programs left-align all names instead.
+// Returns whether the atom names in known residues are aligned as in PDB files, where an element's
+// symbol ends in the second of the four columns of the name. Some programs left-align all names
+// instead.
 bool are_aligned(const Atoms& atoms) {
   bool any = false;
   for (const std::string& kind : atoms.kind_names) {
@@ -243,7 +245,8 @@ NamedElement element_of_columns(std::string_view columns, std::string_view resid
 }
 
 std::uint32_t unnamed_kind(Atoms& atoms, std::string_view columns, std::string_view residue) {
-  // This string is short enough for the small-string optimization.
+  // The key usually fits into the string object itself (small-string optimization), so building a
+  // key for every atom does not allocate memory.
   std::string key(1, unnamed_mark);
   key += columns.empty() ? std::string_view(" ") : columns;
   key += unnamed_mark;

@@ -24,8 +24,9 @@ inline constexpr std::string_view unknown_element = "X";
 // atom's name.
 [[nodiscard]] NamedElement element_of_name(std::string_view atom, std::string_view residue);
 
-// Derives the element from the four name columns of a PDB file, in which symbols are right-aligned
-// in columns 13 and 14. In an unknown residue, "CA " is therefore calcium, and " CA " is carbon.
+// Derives the element from the four columns of a PDB file that contain the atom's name (13 to 16).
+// Symbols are right-aligned in the first two of these columns. In an unknown residue, a name CA
+// that begins in column 13 is therefore calcium, and a name CA that begins in column 14 is carbon.
 [[nodiscard]] NamedElement element_of_columns(std::string_view columns, std::string_view residue);
 
 // Returns a temporary kind (an index into Atoms::kind_names) for an atom whose element the file

@@ -18,7 +18,8 @@ double horner(const std::array<double, N>& coefficients, double x) {
   return sum;
 }
 
-// Both series are used only for |x| ≤ π/4, where the first omitted term is below 2⁻⁵⁶.
+// The series for sine and cosine are used only for |x| ≤ π/4, where the first omitted term is below
+// 2⁻⁵⁶.
 double sine_series(double x) {
   static constexpr std::array<double, 9> c{1.0,
                                            -1.0 / 6,
@@ -87,7 +88,9 @@ double exponential(double x) {
 }
 
 double logarithm(double x) {
-  // x = m·2^e with m near 1, and ln m = 2·artanh s with s = (m − 1)/(m + 1), |s| < 0.172.
+  // Writes x as m·2^e with m between √½ and √2, so that ln x = ln m + e·ln 2. Here, ln m is
+  // 2·artanh s with s = (m − 1)/(m + 1). The series of artanh s converges quickly, because
+  // |s| < 0.172.
   static constexpr std::array<double, 11> c{1.0,      1.0 / 3,  1.0 / 5,  1.0 / 7,
                                             1.0 / 9,  1.0 / 11, 1.0 / 13, 1.0 / 15,
                                             1.0 / 17, 1.0 / 19, 1.0 / 21};

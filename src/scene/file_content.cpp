@@ -21,8 +21,8 @@ namespace {
 template <typename Take>
 void unpack(const std::vector<std::byte>& packed, Packing packing, const std::string& name,
             ProgressSteps& steps, Take&& take) {
-  // The input is read in small pieces, so that progress is reported at least once for every per
-  // cent of the input.
+  // The input is read in small pieces, so that progress is reported at least once for each per cent
+  // of the input.
   const std::size_t sip = std::max<std::size_t>(packed.size() / 200, 1);
   std::size_t taken = 0;
   const ByteSource source = unpacked(

@@ -60,7 +60,7 @@ Volume fill(std::array<int, 3> size, double range_hi, VoxelAt&& voxel) {
   return volume;
 }
 
-// Fills a volume by sampling a field over the unit cube, whose values are in [0, 1].
+// Fills a volume by sampling a field over the unit cube. The values of the field are in [0, 1].
 template <typename T, typename Field>
 Volume sample(std::array<int, 3> size, Field&& field) {
   const double top = std::is_integral_v<T> ? static_cast<double>(std::numeric_limits<T>::max()) : 1;

@@ -14,9 +14,10 @@ namespace {
 constexpr double nanometre = 0.1;  // the length of an ångström in nanometres, the unit of the file
 constexpr std::size_t places_begin = 20;
 
-// Returns the width of a coordinate in columns. Numbers are written as "%{n+5}.{n}f", so the first
-// decimal point is always in column 25, and the distance between decimal points is the width. One
-// line is sufficient to determine it, because no number may be wider than its columns.
+// Returns the width of a coordinate in columns. A coordinate with n decimals is n + 5 columns wide
+// and has its decimal point in the fifth column, so the first decimal point is always in column 25
+// of the line, and the distance between decimal points is the width. One line is sufficient to
+// determine the width, because no number may be wider than its columns.
 std::size_t place_width(std::string_view line, const LineReader& reader) {
   constexpr std::size_t first_point = places_begin + 4;
   const std::size_t first = line.find('.', places_begin);
@@ -58,8 +59,9 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
   atoms.add(place, unnamed_kind(atoms, trimmed(line.substr(10, 5)), line.substr(5, 5)));
 }
 
-// Checks that the line describes a box and not another atom. In a box larger than 1000 nm, the
-// numbers are not separated by blanks. The box itself is not used.
+// Checks that the line describes a box and not another atom. In a box larger than 1000 nm, no
+// blanks separate the numbers, so a line with three decimal points is also accepted. The box itself
+// is not used.
 void check_box(std::string_view line, const LineReader& reader) {
   const std::size_t words = split_words(line).size();
   const bool numbers = line.find_first_not_of("0123456789.+-eE \t") == std::string_view::npos;

@@ -45,8 +45,8 @@ struct Inflater::Stream {
     return zlib.avail_in > 0;
   }
 
-  // Skips zero bytes after a member, which tapes and block devices use for padding. No member
-  // begins with a zero byte.
+  // Skips zero bytes after a member (one of the gzip streams that a file may concatenate). Tapes
+  // and block devices add zero bytes as padding. No member begins with a zero byte.
   void drop_padding() {
     bool padded = false;
     for (; has_input() && *zlib.next_in == 0; ++zlib.next_in, --zlib.avail_in) padded = true;

@@ -41,9 +41,9 @@ class LineReader {
   [[nodiscard]] std::uint64_t count(std::string_view word, std::string_view what) const;
   [[nodiscard]] std::int64_t integer(std::string_view word, std::string_view what) const;
 
-  // Returns the number of entries to reserve memory for: `claimed`, but at most as many lines as
-  // can follow if each has at least `shortest` characters. A file that claims too many entries
-  // therefore cannot exhaust the memory.
+  // Returns the number of entries to reserve memory for. This is `claimed`, but at most the number
+  // of lines that the rest of the text can contain if each line has at least `shortest` characters.
+  // A file that claims too many entries therefore cannot exhaust the memory.
   [[nodiscard]] std::size_t room(std::uint64_t claimed, std::size_t shortest) const;
 
   [[nodiscard]] int line() const { return line_; }

@@ -135,7 +135,8 @@ std::uint64_t whole_number(const MetaField& field) {
   return *number;
 }
 
-// Returns the first three words, which belong to the spatial axes.
+// Returns the first three words of a field that has one word per dimension. They belong to the
+// spatial axes.
 std::string first_three(const MetaField& field, std::uint64_t dimensions) {
   auto words = split_words(field.value);
   if (words.size() != dimensions) {

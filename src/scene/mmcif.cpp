@@ -282,10 +282,11 @@ Atoms read_pairs(Tokens& tokens, std::uint64_t frame, const LineReader& reader) 
   return rows.take();
 }
 
-// Detects truncated files. If a program ends the heading and every category with '#', as the PDB
-// does, the last category must end with '#', too. If there are fewer than `enough` '#' before the
-// atoms, the reader does not reject the file but adds a note, because some programs write '#' only
-// between categories.
+// Detects truncated files. Some programs, such as those of the PDB, end the heading and every
+// category with a line '#'. If a file does so before the atoms, but the category of the atoms is
+// the last one and has no final '#', the file is probably truncated. The reader rejects such a file
+// if there are at least `enough` lines '#' between the heading and the atoms. If there are fewer,
+// it only adds a note, because some programs write '#' only between categories.
 class ClosingMarks {
  public:
   void heading(const Tokens& tokens) {

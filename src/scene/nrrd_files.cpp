@@ -64,9 +64,10 @@ std::uint64_t skip_lines(const std::filesystem::path& file, std::uint64_t start,
   return static_cast<std::uint64_t>(in.tellg());
 }
 
-// Returns the files named by a pattern "FORMAT MIN MAX STEP", which may be followed by a dimension.
-// Returns nullopt if the text is not a pattern. A '%' alone does not make the text a pattern,
-// because a plain file name may also contain a '%'.
+// Returns the files named by a pattern "FORMAT MIN MAX STEP". The pattern may be followed by a
+// dimension (the number of axes in each file), which is ignored. Returns nullopt if the text is not
+// a pattern. A '%' alone does not make the text a pattern, because a plain file name may also
+// contain a '%'.
 std::optional<std::vector<std::string>> files_of_pattern(std::string_view value,
                                                          const core::FilePlace& place) {
   constexpr std::size_t most_files = 100'000;

@@ -115,7 +115,8 @@ void Header::add(std::string_view line, const core::FilePlace& place) {
   const std::string name = canonical(line.substr(0, colon));
   const bool is_field =
       name == "sample units" || std::find(known.begin(), known.end(), name) != known.end();
-  // A key may also contain colons.
+  // A line "key:=value" is ignored. Its key may also contain colons, so the ":=" need not be at the
+  // first colon of the line.
   const bool is_pair = line.substr(colon).starts_with(":=") ||
                        (!is_field && line.find(":=") != std::string_view::npos);
   if (is_pair) return;

@@ -31,7 +31,8 @@ struct ParticleSet {
   std::string name;  // the `data` factor: a file name or generate:NAME:COUNT
   std::vector<std::array<float, 4>> spheres;  // centre x, y, z and radius in world units
   // 0-based indices in the file or, if the file numbers its atoms, 0-based ranks of these numbers.
-  // Dropped particles also count. The ids are in ascending order unless the set was permuted.
+  // Dropped particles have an index, too, so the ids may have gaps. The ids are in ascending order
+  // unless the set was permuted.
   std::vector<std::uint32_t> ids;
   ColourKind colour = ColourKind::rgba8;
   // Only the array that `colour` names is filled. Colours are not premultiplied. Alpha is not used,

@@ -6,8 +6,8 @@
 
 namespace triptych::scene {
 
-// Calls a Progress function at most once per per cent of the work, no matter how often reach() is
-// called.
+// Calls a Progress function at most once for each per cent of the work, no matter how often reach()
+// is called.
 class ProgressSteps {
  public:
   // `progress` may be empty. If the work is part of a larger task, its progress is mapped to

@@ -297,7 +297,8 @@ void note_values(Volume& volume, const RawVoxels& source) {
 void read_voxels(Volume& volume, const RawVoxels& given) {
   RawVoxels source = given;
   ValueLayout& layout = source.layout;
-  // Numbers in a text file are converted to the machine's byte order.
+  // The reader of text files returns numbers in the byte order of this machine, whatever the header
+  // states.
   if (source.encoding == RawEncoding::text) {
     layout.big_endian = std::endian::native == std::endian::big;
   }

@@ -1,6 +1,7 @@
 #pragma once
-// Facts that a reader found in a file in addition to the data. They are used by `render --describe`
-// and for warnings about guesses.
+// Facts about a data file that the file reader found in addition to the data, such as the format
+// and the unit of length. `render --describe` prints them, and warnings about guesses are based on
+// them.
 
 #include <cstdint>
 #include <string>

@@ -34,10 +34,10 @@ struct Shading {
 //   - cells: a fourth-order rule. The ray is split at the planes through voxel centres, so that
 //     the field is a cubic polynomial between two planes. Each such segment is split into ⌈1/step⌉
 //     equal parts, and these are split again where the value passes a kink of the transfer function
-//     (kinks.hpp). On each piece, the two-point Gauss rule computes the optical depth, and the
-//     colour changes linearly with the optical depth from one point to the other. Shading uses
-//     the gradients at the points. An opacity of 1 counts as an extinction of 8192·ln 2 per
-//     voxel.
+//     (kinks.hpp). On each piece, the two-point Gauss rule computes the optical depth. The colour
+//     is assumed to change linearly with the optical depth, through the colours at the two Gauss
+//     points. Shading uses the gradients at these points. An opacity of 1 counts as an extinction
+//     of 8192·ln 2 per voxel.
 enum class Quadrature : std::uint8_t { midpoint, preintegrated, cells };
 [[nodiscard]] std::string_view name_of(Quadrature quadrature);
 [[nodiscard]] Quadrature quadrature(std::string_view name);  // throws InputError

@@ -115,8 +115,8 @@ class Base64Reader {
   }
 
  private:
-  // Decodes four characters, which represent three bytes. At the end of a run, '=' replaces missing
-  // characters.
+  // Decodes four characters, which represent three bytes. In the last group of a base64 text, '='
+  // replaces missing characters.
   bool next_group() {
     unsigned bits = 0;
     unsigned letters = 0;

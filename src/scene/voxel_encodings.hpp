@@ -14,8 +14,9 @@ namespace triptych::scene {
 // Reads two hexadecimal digits per byte. White space is allowed anywhere.
 [[nodiscard]] ByteSource hex_bytes(ByteSource source, std::string file);
 
-// Reads base64. Several runs may follow one another, each with its own padding. Reading stops at
-// the first character that does not belong to the encoding, such as the '<' of a closing tag.
+// Reads base64. Several base64 texts may follow one another, each with its own padding. Reading
+// stops at the first character that does not belong to the encoding, such as the '<' of a closing
+// tag.
 [[nodiscard]] ByteSource base64_bytes(ByteSource source, std::string file);
 
 // Reads numbers that are separated by white space or commas, and returns them as bytes of `type` in

@@ -309,7 +309,8 @@ ByteSource open_array(const VtiFile& vti, const XmlTag& array, const std::filesy
   const std::string compressor = vti.root.attribute("compressor");
   if (compressor.empty()) {
     const BlockHeader header(vti, bytes);
-    // The byte count in the header is skipped, because it also follows from the sizes.
+    // The header contains only the number of bytes. It is skipped, because this number also follows
+    // from the size of the volume and the type of its values.
     static_cast<void>(header.take());
     return bytes;
   }
