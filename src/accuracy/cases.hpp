@@ -61,9 +61,9 @@ struct AccuracyScene {
 [[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
                                          std::string_view clock);
 
-// accuracy_scene() returns a scene without cases. narrow() removes the factor levels that `record`
-// does not share from AccuracyScene::scene. evaluate() computes the results after all cases have
-// been added.
+// accuracy_scene() returns a scene without cases. narrow() removes factor levels from
+// AccuracyScene::scene: those that `record` does not have. evaluate() computes the results after
+// all cases have been added.
 [[nodiscard]] AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit);
 void narrow(AccuracyScene& scene, const record::Record& record);
 void evaluate(AccuracyScene& scene);

@@ -27,7 +27,7 @@ struct StepLimits {
 
 using ErrorOfStep = std::function<double(double step)>;
 
-// Finds the longest step, to within a quarter of an octave, whose error is at most `error`. The
+// Finds the longest step, to within a factor of 2^(1/4), whose error is at most `error`. The
 // error at half this step must also be at most `error`, because the error of a long step may be
 // small by chance. If the error is of second order (proportional to step²), the error of the result
 // is at least 0.7 of `error`. If no step is short enough, the result is the shortest step that was

@@ -11,8 +11,8 @@ namespace {
 // constant.
 constexpr double recorded = 0x1.0p-23;
 
-// Samples are not compared once the transmittance is below this threshold, because the reference
-// ends its rays there.
+// If less than this share of the light is left, nothing behind is visible. A device may then leave
+// out all further samples, or take samples that the reference renderer does not take.
 constexpr double invisible = 0x1.0p-60;
 
 bool is_within(double number, const Allowed& allowed) {
@@ -71,8 +71,8 @@ std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
   }
   const double steps = square > 0 ? along / square : 0.0;
   if (!std::isfinite(steps) || std::abs(steps) > 1e15) return -1;
-  // The middle of a very short last step is just above an integer, so rounding might otherwise
-  // yield the previous index.
+  // If the last step is very short, its middle is just above i steps from the entry point. The
+  // small addition prevents rounding from yielding the index i − 1.
   return static_cast<std::int64_t>(std::floor(steps + 1e-4));
 }
 

@@ -144,8 +144,9 @@ Radiance atmosphere_piece(const Setting& setting, double g0, double g1, double l
 
 // Returns ∫ |error of g| ds along the ray, where s is the distance along the ray. The value of
 // v4_gaussian at distance r from the centre is g = e^(−r²/(2σ²)), and σ is blob_sigma(). The error
-// is caused by trilinear interpolation and, near the faces, by clamping. The derivatives are
-// replaced by their maxima within the diagonal of a cell. They are
+// is caused by trilinear interpolation and, near the faces, by clamping. At each point of the ray,
+// the derivatives of g are replaced by bounds that hold within one cell diagonal of the point. They
+// are
 //   |∂ᵢg| = rᵢ·g/σ²   and   |∂ᵢ²g| ≤ (1 + rᵢ²/σ²)·g/σ²,
 // where rᵢ is the distance from the centre along axis i.
 double blob_interpolation_error(const Setting& setting, const Chord& chord) {

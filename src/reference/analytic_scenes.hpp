@@ -70,15 +70,17 @@ struct AnalyticPixel {
 //   - v7_shell: g is proportional to the distance from the centre, up to 1.
 //   - v8_trilinear: g is the product of x, y and z, each divided by the extent of the box along its
 //     axis. Trilinear interpolation reproduces this product.
-//   - v9_wave, the only shaded problem, is a homogeneous box with g = a·(1 − cos(πz/L))/2. That is
-//     half a wave, which is symmetric about both faces, like a grid that is clamped to the edge.
-//     The amplitude a keeps the gradient below nine tenths of scene::Shading::gradient_floor, so
-//     that brightness is proportional to the gradient.
-//   - v3_plateaus: the kinks of the field, at the outermost voxel centres, are on the plateaus,
-//     which are the lowest and the highest fifth of z. The kinks of its medium are at table
-//     entries. An integration rule that is exact for a linear field therefore has only rounding
-//     errors, unless a step along z is long enough to reach from a kink of the field to a kink of
-//     the medium, which is a distance of n/5 − ½ voxels, with n the number of voxels along z.
+//   - v9_wave, the only shaded problem, is a homogeneous box with g = a·(1 − cos(πz/L))/2, which
+//     is half a period of a wave. The wave is symmetric about both faces. A grid that is clamped to
+//     the edge is symmetric in the same way, because the value of the last voxel continues beyond
+//     the face. The amplitude a keeps the gradient below nine tenths of
+//     scene::Shading::gradient_floor, so that brightness is proportional to the gradient.
+//   - v3_plateaus: the medium is constant on two plateaus, which are the lowest and the highest
+//     fifth of z. The field has its kinks at the outermost voxel centres, which are on the
+//     plateaus. The medium has its kinks at table entries. An integration rule that is exact for a
+//     linear field therefore has only rounding errors, unless a single step contains both a kink of
+//     the field and a kink of the medium. Along z, these kinks are n/5 − ½ voxels apart, with n the
+//     number of voxels along z.
 //
 // Derivation of the model error, with u the smallest spacing, α(g) = 1 − e^(−u·τ(g)), and its
 // derivatives α' and α'' with respect to g: interpolating α over 1/255 has an error of at most

@@ -122,8 +122,10 @@ double v9_lit_wave(double tau, int power, double phase, double rate, double leng
 
 double erfcx(double x) {
   if (x < 2.0) return std::exp(x * x) * std::erfc(x);
-  // Laplace's continued fraction 1/(√π·(x + (1/2)/(x + (2/2)/(x + (3/2)/(x + …))))), evaluated from
-  // the end. 160 levels give full precision for x ≥ 2; larger x need fewer.
+  // Laplace's continued fraction for erfcx(x) is
+  //   1/(√π·(x + (1/2)/(x + (2/2)/(x + (3/2)/(x + …))))).
+  // It is evaluated from its innermost level outwards. For x ≥ 2, 160 levels give full precision;
+  // larger x need fewer.
   double tail = x;
   for (int n = 160; n > 0; --n) tail = x + 0.5 * n / tail;
   return inv_sqrtpi / tail;
@@ -132,7 +134,8 @@ double erfcx(double x) {
 double dawson(double x) {
   const double size = std::abs(x);
   if (size < 1.0) {
-    // The power series of Dawson's function, Σ (−2)ⁿ·x^(2n+1)/(2n+1)!!, converges quickly here.
+    // For |x| < 1, the power series of Dawson's function, Σ (−2)ⁿ·x^(2n+1)/(2n+1)!!, converges
+    // quickly.
     double term = x;
     double sum = x;
     for (int n = 1; n < 40 && std::abs(term) > 1e-18 * std::abs(sum); ++n) {
@@ -141,9 +144,9 @@ double dawson(double x) {
     }
     return sum;
   }
-  // Dawson's function is approximately (1/√π)·Σ e^(−(x−nh)²)/n, summed over all odd n (Rybicki,
-  // Computers in Physics 3, 1989). The error is e^(−(π/(2h))²) = 7e-18 for h = 1/4. Terms with
-  // |x − nh| > 6.5 are below 5e-19 and are left out.
+  // For a small h, Dawson's function is approximately (1/√π)·Σ e^(−(x−nh)²)/n, summed over all odd
+  // n (Rybicki, Computers in Physics 3, 1989). The error is e^(−(π/(2h))²) = 7e-18 for h = 1/4.
+  // Terms with |x − nh| > 6.5 are below 5e-19 and are left out.
   constexpr double h = 0.25;
   const double centre = std::floor(size / h);
   double sum = 0.0;

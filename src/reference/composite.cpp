@@ -8,8 +8,8 @@ namespace triptych::reference {
 
 namespace {
 constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
-// The transmittance below which everything behind contributes less than half an ulp to any double
-// above 1e-3.
+// If the transmittance is below this number, everything behind contributes less than half an ulp to
+// a colour, if this colour is a double above 1e-3.
 constexpr double invisible = 0x1.0p-64;
 }  // namespace
 
@@ -60,8 +60,9 @@ Pixel Compositor::finish() const {
         const double unseen = std::abs(behind - background_[channel]) + model_.adapt;
         lost[channel] = std::max(lost[channel], left * unseen);
       }
-      // A rounding error of the transmittance scales everything behind the sample. Opacity is
-      // computed as one minus the remaining transmittance, so its error scales the uncovered part,
+      // A relative error of the transmittance changes the light from everything behind the sample
+      // by the same relative amount. In the alpha channel, opacity is computed as one minus the
+      // remaining transmittance, so its error is proportional to the part that is not covered,
       // however small the weights of the samples are.
       const double scaled = channel < 3 ? std::abs(behind) : 1.0 - behind;
       if (reached && opacity_hi > 0) {

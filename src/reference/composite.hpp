@@ -52,7 +52,7 @@ class Compositor {
   // A device with early termination stops after one of the samples first_stop_ … last_stop_. If a
   // device draws several samples of a nearly homogeneous brick as one (factor `adapt`), its
   // transmittance may be wrong by up to ErrorModel::adapt. first_stop_ then takes this error into
-  // account, and last_stop_ has no limit, because the device may draw all samples.
+  // account, and last_stop_ is not set, because the device may draw all samples.
   std::size_t first_stop_ = 0;
   std::size_t last_stop_ = 0;
 };

@@ -6,8 +6,9 @@
 // ray direction d and where |g| passes the gradient floor, which are the roots of g·d and of
 // |g|² − floor². The integrand is therefore smooth on every piece, and the three-point Gauss rule
 // has order 6 there. A piece is halved until halving changes its light by no more than the piece's
-// share of the tolerance. The reported bound is the sum of these changes. For order 6, it is about
-// sixty times the error.
+// share of the tolerance. The reported bound is the sum of the changes that the last halvings
+// caused. Halving leaves 1/64 of the error of a rule of order 6, so the bound is about sixty times
+// the error of the result.
 
 #include <algorithm>
 #include <array>
@@ -121,9 +122,9 @@ class ConvergedRaycaster {
     const Rgba lower = table_.at(entry);
     const Rgba upper = table_.at(entry + 1.0);
     const auto point_at = [&](double s) {
-      // The position is kept away from the entries themselves, where opacity may be 1. The reason
-      // is that a cut is known only to 2⁻⁴⁰, and an opaque sliver of that length would hide
-      // everything.
+      // The opacity may be 1 at an entry, so f, the position between the two entries, is kept away
+      // from both of them. Otherwise, an opaque sliver of the ray would hide everything behind it,
+      // although the sliver may exist only because the position of a cut has an error of 2⁻⁴⁰.
       constexpr double margin = 0x1.0p-44;
       const double f = std::clamp(cell.knot(s) - entry, margin, 1.0 - margin);
       Rgba rgba;

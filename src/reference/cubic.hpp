@@ -81,7 +81,8 @@ struct Cubic {
   }
 
  private:
-  // Bisects a monotone interval down to 2⁻⁴⁰ of its length.
+  // Returns the position at which the cubic has this value, in an interval from a to b on which the
+  // cubic is monotone. Bisects the interval down to 2⁻⁴⁰ of its length.
   [[nodiscard]] double solve(double value, double a, double b) const {
     const bool rising = (*this)(a) < (*this)(b);
     for (int i = 0; i < 40; ++i) {

@@ -71,8 +71,9 @@ class Field {
     [[nodiscard]] glm::dvec3 steepest() const;
   };
 
-  // The interpolated stored value at a position. `slopes` cover every cell that a device may read
-  // only if `local` is true, that is, if the position error is below half a voxel.
+  // The interpolated stored value at a position. If the position error is below half a voxel,
+  // `local` is true, and `slopes` cover every cell that a device may read. Otherwise, `slopes` must
+  // not be used.
   struct Read {
     double stored;
     bool local;

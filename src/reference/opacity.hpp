@@ -23,9 +23,10 @@ struct StepOpacity {
   double hi = 0;
 };
 
-// Returns the opacity of a sample. The bounds are valid even where the derivative is unbounded:
-// near alpha = 1 with steps < 1, and where a whole step appears or vanishes. `relative_error` is
-// the error of the device's own opacity correction.
+// Returns the opacity of a sample. The bounds are valid even if the derivative of the opacity is
+// unbounded (near alpha = 1 with steps < 1), and if the sample exists on some devices but not on
+// others (its shortest length is 0). `relative_error` is the error of the device's own opacity
+// correction.
 [[nodiscard]] StepOpacity step_opacity(const Looked& looked, const StepLength& steps,
                                        double relative_error);
 

@@ -65,8 +65,9 @@ class Crossings {
     return sum;
   }
 
-  // Returns the number of planes that a device may cross at the same time as the previous plane, if
-  // the device's ray is within `position_error` voxels of this ray.
+  // Returns the number of planes that the ray crosses so close behind the previous plane that the
+  // two crossings may coincide on a device. The device's ray is within `position_error` voxels of
+  // this ray.
   [[nodiscard]] double ties(double position_error) const {
     if (planes_.edge == 0) return 0;
     struct Crossing {
@@ -187,9 +188,10 @@ class Counter {
       tally.skipped += passed + (near ? 1 : 0);
       if (sight.possible) stops.add(sight.opacity);
       if (stops.must_end()) break;
-      // A device counts the visits of all bricks in a run of visible bricks before it draws the
-      // run. From here on, one device may have ended the ray while another device counts a run
-      // that extends to the end of the volume, so all remaining visits may differ.
+      // A device counts the visits of all bricks in a run of consecutive visible bricks before it
+      // draws the run. From this sample on, one device may have ended the ray, while another device
+      // may have counted a run that extends to the end of the volume. Therefore all remaining
+      // visits may differ.
       if (!ended && stops.may_end()) {
         const double rest = crossings.between(p, ray.entry + most * stride);
         tally.visited += rest;

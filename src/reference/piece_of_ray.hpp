@@ -47,8 +47,8 @@ struct RayPoint {
 // Integrates c·τ·e^(−D), where c is the colour and τ the extinction, over a piece by the
 // three-point Gauss rule, which has order 6. The optical depth D from the front of the piece to
 // each point is computed by collocation (with the coefficients of Kuntzmann and Butcher), which
-// preserves the order. The result is scaled so that a constant colour is exact. `point_at(share)`
-// returns a point of a piece of length `length`.
+// preserves the order. The result is scaled so that a constant colour is exact. `length` is the
+// length of the piece, and `point_at(share)` returns its point at this fraction of the length.
 template <typename PointAt>
 [[nodiscard]] PieceLight gauss_light(double length, const PointAt& point_at) {
   static const double r = std::sqrt(15.0);
@@ -73,7 +73,8 @@ template <typename PointAt>
   }
   const double opacity = light.opacity();
   for (std::size_t i = 0; i < 3; ++i) {
-    // If all weights vanish, all light comes from the part in front of the first point.
+    // If all weights are 0, even the first point is completely hidden. All light then comes from
+    // the part of the piece in front of this point, whose colour is used.
     const double colour = whole > 0.0 ? light.colour[i] / whole : points[0].colour[i];
     light.colour[i] = opacity * colour;
   }

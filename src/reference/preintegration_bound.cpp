@@ -139,8 +139,9 @@ void PreintegrationBound::add(const PathPiece& piece, double depth) {
 void PreintegrationBound::add_weights(const PathPiece& piece, double depth, double tail) {
   const Rgba slopes = slopes_near(piece);
   const double alpha_error = path_.error * slopes[3] + model_.table_error;
-  // Here, an opacity that is lowered below 0 may stay negative. An opacity that is raised above 1
-  // is 1 along a part of the piece, so the mean extinction is infinite.
+  // An opacity that is lowered below 0 is not clamped, because the result is still a lower bound.
+  // If an opacity is raised above 1, it is 1 along a part of the piece, so the mean extinction is
+  // infinite.
   const auto mean = [&](double by) {
     const double a = piece.a[3] + by;
     const double b = piece.b[3] + by;
@@ -150,8 +151,8 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   const double least =
       depth_of(piece.length * length.shortest, std::max(mean(-alpha_error) - tail, 0.0));
   const double most = depth_of(piece.length * length.longest, mean(alpha_error) + tail);
-  // The change is infinite if the opacity may be 1 on a device. Then only the range of the colour
-  // bounds the light.
+  // `most` is infinite if the opacity may be 1 on a device. In that case, only the range of the
+  // colour bounds the error of the light.
   const double change = std::isfinite(most) ? std::max(most - depth, depth - least) : most;
   const double relative = tail > model_.table_error
                               ? infinity
@@ -168,8 +169,8 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   tails_ += piece.length * tail;
   front_before_ = front_;
   if (widening_ == 0.0) return;
-  // On a device, the first piece may be shorter, because the position of its front has an error.
-  // The lower bound of its depth then uses its smallest extinction.
+  // On a device, the first piece may be shorter, because the position of its front has an error. In
+  // that case, the lower bound of its depth is its smallest extinction times its shortest length.
   const double thinnest =
       extinction_of(std::max(std::min(piece.a[3], piece.b[3]) - alpha_error, 0.0));
   const double sure =
@@ -195,9 +196,10 @@ void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
   }
 }
 
-// Adds the error of one end of the step, where extinction is assumed to be linear. On a device, the
-// end may be in the neighbouring cell. In that case, the part at the end is assumed to be as long
-// as a whole cell, and to begin in front of the previous piece.
+// Adds the error at one end of the step. A device assumes that the extinction is linear within the
+// part of a cell that the step covers there. On a device, the end may be in the neighbouring cell.
+// In that case, this part is assumed to be as long as a whole cell, and the light that reaches it
+// is the light in front of the previous piece.
 void PreintegrationBound::add_end(const PathPiece& piece, double position, const Reach& end) {
   const double e = path_.error;
   const bool beside = std::floor(position - e) != std::floor(position + e);
@@ -213,9 +215,9 @@ void PreintegrationBound::add_end(const PathPiece& piece, double position, const
 }
 
 // Because of the errors of values, a device may enter cells (intervals between entries) at either
-// end of the step that the exact step does not enter. Returns whether these parts of cells may have
-// a larger optical depth than a chunk, the largest group of cells processed at once. If so, each of
-// these parts adds an error as large as the range of its colour.
+// end of the step that the exact step does not enter. Returns whether the optical depth of these
+// parts of cells may exceed the limit for a chunk (a group of cells that a device processes at
+// once). If so, each of these parts adds an error as large as the range of its colour.
 bool PreintegrationBound::deep_slivers() const {
   const double share = widening_ * 2.0 * path_.error / std::max(span_, 1e-300);
   const double extinction = extinction_of(around_.most_alpha + model_.table_error);

@@ -47,9 +47,9 @@ struct StepPath {
 //     lowered and the raised opacity.
 //   - Weights. C is the mean of c with the weights τT, so ∫(c − C)·τT = 0. By the identity in
 //     composite.hpp, a change of the extinction by δ changes the light by the change of the opacity
-//     times C, and in addition by at most 2R·∫T'δ and by at most R·A. For a piece, ∫T'δ is at most
-//     T' at its front times the change of its depth, and at most the largest relative change of
-//     extinction times the piece's opacity.
+//     times C, and in addition by at most the smaller of 2R·∫T'δ and R·A. For a piece, ∫T'δ is at
+//     most T' at its front times the smaller of two numbers: the change of the piece's depth, and
+//     its opacity times the largest relative change of the extinction.
 //   - Chunks. Let D be the optical depth of a chunk, y the share of D that the light has passed,
 //     i_n the modified spherical Bessel functions, and Pn the Legendre polynomials on [0, 1]. Then
 //     e^(−Dy) = Σ (−1)ⁿ·(2n + 1)·e^(−D/2)·i_n(D/2)·Pn(y). The table contains the colour's first

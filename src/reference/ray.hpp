@@ -39,7 +39,8 @@ class RayMaker {
   // point. At grazing incidence, this shift is far larger than the error across the ray.
   RayMaker(const scene::VolumeScene& scene, double position_error_voxels);
 
-  // Returns nullopt if the ray misses the volume on every device that the model allows.
+  // Returns nullopt if the ray misses the volume on every device whose rays are within the position
+  // error that was passed to the constructor.
   [[nodiscard]] std::optional<Ray> operator()(int x, int y) const;
 
  private:

@@ -1,5 +1,7 @@
 #pragma once
-// Predicts how many additional fragments sprites produce on a device with a coarse vertex grid.
+// Predicts how many additional fragments sprites produce on a device that rounds vertex positions
+// to a coarse grid. Sprites are made larger on such a device, so that they cover their spheres even
+// after rounding.
 
 #include "scene/particle_scene.hpp"
 

@@ -79,8 +79,8 @@ StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
   return maker.take();
 }
 
-// A cubic lattice whose spacing equals the radius. Each inner sphere intersects 26 others, and its
-// visible part is bounded by the bisecting planes.
+// A cubic lattice whose spacing equals the radius. Each inner sphere intersects 26 others. Its
+// visible part is bounded by the planes in which it intersects its neighbours.
 StressScene stress_interpenetrating(std::string_view, scene::ColourKind colour) {
   StressMaker maker(colour, looking({3, 2.2, 4.1}, {0, 0, 0}, 45), stress_side, stress_side);
   for (int z = 0; z < 4; ++z) {

@@ -248,8 +248,8 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
 }
 
 // Counters may differ between devices for two reasons. A device with a limited point size draws
-// larger sprites as quads. A device with a coarse vertex grid draws sprites that are larger than on
-// other devices (technique/particles/margins.hpp).
+// larger sprites as quads. On a device that rounds vertex positions to a coarse grid, all sprites
+// are made larger than on other devices (technique/particles/margins.hpp).
 std::map<std::string, double> ParticleSuite::open_counts(
     const Configuration& configuration, const std::map<std::string, double>& precision) {
   std::map<std::string, double> open;

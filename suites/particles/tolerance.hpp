@@ -24,7 +24,7 @@ namespace triptych::particles_suite {
 //     image at that depth, so the three errors sum up to 3u·W/2.
 //   - The error in two axes is √2 times as large. The total is below 8u·W.
 //   - Rays that are computed at vertices and interpolated have an additional error, because
-//     vertices are snapped to the rasterizer's grid of g = 2⁻ᵇ pixel, where b is the number of
+//     vertices are snapped to the rasterizer's grid of g = 2⁻ⁿ pixel, where n is the number of
 //     sub-pixel bits. The interpolated ray is the ray of a point that is up to g/2 away along each
 //     axis. The model adds g, of which the other half is for the interpolation itself. Rays that
 //     are computed per pixel do not depend on the grid, because sprites are large enough to allow
@@ -35,7 +35,8 @@ namespace triptych::particles_suite {
 // sums). The square root halves their sum: 5u·r.
 //
 // 3. Error of the depth, relative to |c| + r.
-//   - b = c·d consists of 3 products and 2 sums, 3u·|c||d|. The error of c adds u: 4u.
+//   - The depth is (b − √D)/q. Here, b = c·d consists of 3 products and 2 sums, 3u·|c||d|. The
+//     error of c adds u: 4u.
 //   - The error of the discriminant D = r²·q − |m|² is the lateral error above. Taking the square
 //     root √D adds 5u.
 //   - The difference b − √D adds u, the division by q adds 5u, and q itself 3u. The depth is stored

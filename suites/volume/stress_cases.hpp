@@ -6,7 +6,7 @@
 //
 // Every image must be within its bound of the reference image (tolerance.hpp), and must be
 // bit-identical with and without skipping of empty space. Each case states why single precision is
-// sufficient for this, and what else is expected.
+// sufficient to meet these requirements, and what else is expected.
 
 #include <array>
 #include <optional>

@@ -10,8 +10,8 @@
 namespace triptych::volume_suite {
 namespace {
 
-// Returns the field of view for an image with `height` rows whose pixels are as large as those of
-// an image with `rows` rows at 50°.
+// Returns the field of view at which the pixels of an image with `height` rows are as large as
+// those of an image with `rows` rows and a field of view of 50°.
 double fov_of_rows(int height, int rows) {
   const double half = std::tan(50 * std::numbers::pi / 360);
   return std::atan(half * height / rows) * 360 / std::numbers::pi;

@@ -196,9 +196,9 @@ measure::Work VolumeSuite::work(Configuration& configuration, const measure::Dev
 }
 
 measure::Work VolumeSuite::calibration(technique::Work kind) {
-  // A field without empty space, sampled finely. It takes milliseconds on a software device, and
-  // does not take minutes even on a very slow device. The calibration repeats the frame if it is
-  // too short.
+  // A scene without empty space and with many samples per ray. Drawing it takes milliseconds on a
+  // software device, and does not take minutes even on a very slow device. The calibration repeats
+  // the frame if it is too short.
   scene::Volume volume = scene::generate_volume("uniform_box", {32, 32, 32});
   scene::VolumeScene scene{
       .grid = std::make_shared<const scene::VoxelGrid>(

@@ -63,7 +63,8 @@ struct PathPrecision {
 //   - Trilinear interpolation nests three interpolations a + f·(b − a). Each has an error of 3u of
 //     the largest stored value.
 //   - stored·scale + offset adds 2u. The sum is 11u·M, with M = |scale|·stored_max + |offset|.
-//   - The position in the table, 256·x − ½, adds u twice. The sum is 13u·M.
+//   - The position of the normalised value x in the table, 256·x − ½, adds u twice. The sum is
+//     13u·M.
 //   - If the voxel format loses precision, half a storage step is added.
 //   - quadrature=cells computes a cubic from the eight voxels. Its terms are sums of products of at
 //     most four factors. Each has an error of 6u, and together they are at most 14 times the range
@@ -85,8 +86,10 @@ struct PathPrecision {
 // is 4u, because the opacity in the middle of a piece between two entries is rounded once more.
 //
 // 6. Opacity, relative.
-//   - Midpoint: tri_opacity is accurate to 8u, the two factors of its exponent contribute 2u each,
-//     and the share of a whole step that the sample covers contributes 2u. The sum is 14u.
+//   - Midpoint: tri_opacity (technique/portable/volume_math.h) converts the opacity of one voxel
+//     length to that of the sample. It is accurate to 8u, the two factors of its exponent
+//     contribute 2u each, and the share of a whole step that the sample covers contributes 2u. The
+//     sum is 14u.
 //   - Preintegrated: the mean of the logarithm contributes 8u, and its series 3u. The length of a
 //     piece contributes 2u for the share, 4u for the division by the difference of two positions
 //     and 2u for the product. The exponential contributes 8u. Combining three pieces adds u each
