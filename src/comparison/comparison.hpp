@@ -25,10 +25,12 @@ struct ComparisonOptions {
   measure::SideOptions b;
   std::vector<measure::InjectedFault> faults;  // faults to inject into side b
   // The time budget, counted from the start of the comparison. When it is used up, no further
-  // blocks (groups of interleaved batches) are measured, with three exceptions, without which there
-  // would be no result: the deterministic measurements, the blocks before the first evaluation of
-  // each configuration, and least_process_runs fresh process runs, which confirm that a
-  // configuration is slower or faster. Part of the budget is reserved for these process runs.
+  // blocks (groups of interleaved batches of frames) are measured. Three measurements take place
+  // regardless of the budget, because there would be no result without them:
+  //   - the deterministic measurements,
+  //   - the first blocks of each configuration, up to the first evaluation of its times,
+  //   - least_process_runs fresh process runs, which confirm that a configuration is slower or
+  //     faster. Part of the budget is reserved for these process runs.
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
   std::uint64_t seed = 1;
@@ -50,7 +52,7 @@ struct Compared {
   std::optional<record::Outcome> ended;
   PairVerdict verdict = PairVerdict::undecided;
   TimeReason reason;     // why there is no verdict, or why the confirmation withdrew it
-  Shift shift;           // shift of ln t from a to b; meaningless if a side did not finish
+  Shift shift;           // change in ln(frame time) from a to b; invalid if a side did not finish
   int blocks = 0;        // number of blocks measured in the first process run
   int process_runs = 0;  // number of fresh process runs measured for the confirmation
   int frames_per_batch = 1;

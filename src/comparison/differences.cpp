@@ -22,8 +22,8 @@ using measure::Side;
 // same device, but with different driver versions or settings. It equals the tolerated increase in
 // time (SequentialDesign::standard()).
 constexpr double frame_across_setups = 0.01;
-// Changes in the preparation cost are reported only if they exceed this relative limit, because
-// that cost varies from run to run.
+// Changes in the preparation cost (the instructions that are executed before the first frame) are
+// reported only if they exceed this relative limit, because that cost varies from run to run.
 constexpr double of_preparing = 0.05;
 
 template <typename Map>
@@ -186,10 +186,11 @@ class Finder {
         .numbers = image_change(a_.image, b_.image);
   }
 
-  // Compares the instructions of a frame. If both sides have the same device key (driver version
-  // and settings), each part of the frame must stay within its own small tolerance, even if the
-  // sides run different programs. If only their device ids are equal, only the cost of the whole
-  // frame is limited: it may grow by frame_across_setups.
+  // Compares the numbers of instructions that one frame executes. If both sides have the same
+  // device key (driver version and settings), the counts of device code and driver must each stay
+  // within a small tolerance, even if the sides run different builds of Triptych. If only their
+  // device ids are equal, only the sum of these counts is limited: it may grow by
+  // frame_across_setups.
   void cost() {
     const record::Counts& before = a_.record.cost;
     const record::Counts& now = b_.record.cost;
@@ -352,8 +353,9 @@ std::vector<Difference> find_differences(const record::Device& a, const record::
           });
   changed(a.statistics_calibration, b.statistics_calibration,
           [&](const std::string& name, const auto* before, const auto* now) {
-            // A run calibrates only the statistics needed by its techniques. A statistic that one
-            // of the runs did not calibrate is not compared.
+            // Each run calibrates only the statistics that its techniques need: it compares the
+            // driver's counts with known counts. A statistic that one of the two runs did not
+            // calibrate is left out here.
             if (before == nullptr || now == nullptr) return;
             differences.push_back({.kind = Kind::calibration,
                                    .subject = Subject::statistic,

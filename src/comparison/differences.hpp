@@ -34,8 +34,9 @@ struct Comparison {
 [[nodiscard]] Comparison find_differences(const ComparedSide& a, const ComparedSide& b,
                                           bool same_setup);
 
-// Finds limits and capabilities that were gained, lost or changed, and changes in the statistics
-// calibration, between two versions of the same device. Returns nothing for two different devices.
+// Compares two descriptions of the same device, for example from before and after a driver upgrade.
+// Finds limits and capabilities that were gained, lost or changed, and statistics whose calibration
+// (how exactly the driver counts them) changed. Returns nothing for two different devices.
 [[nodiscard]] std::vector<Difference> find_differences(const record::Device& a,
                                                        const record::Device& b);
 

@@ -21,7 +21,7 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
       here.injected = record.injected;
       if (record.outcome != record::Outcome::measured) return;
       const auto time = record::summarise(
-          record.wall_ns);  // the wall clock, so that all stores use the same clock
+          record.wall_ns);  // wall-clock times, because every timed record has them
       here.cost = record.instructions();
       if (time) here.time = time->median;
     });
@@ -129,9 +129,10 @@ void HistoryBuilder::add_changes(const record::Store& store,
   }
 }
 
-// Adds the values of one store to the chain. Returns the index of this store (HistoryPoint::cost or
-// HistoryPoint::time), which is 1 for the first store. Returns nullopt if this store has no values,
-// or if its configurations have no values in any earlier store.
+// Computes the index of one store (HistoryPoint::cost or HistoryPoint::time), which is 1 for the
+// first store, and updates `chain`, which contains the most recent value of each configuration.
+// Returns nullopt if this store has no values, or if none of its configurations has a value in an
+// earlier store.
 std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfiguration& here,
                                              std::optional<double> Measured::*value) {
   double sum = 0;

@@ -88,9 +88,9 @@ std::size_t averages_outside(std::size_t n, double tail) {
   return k;
 }
 
-// The smallest variance of ln t that is assumed between process runs (lifetimes of worker
-// processes): (10⁻⁶)². No clock resolves a millionth of a batch, so a smaller variance would be an
-// artefact of the timers.
+// The smallest variance of ln(frame time) that is assumed between process runs (lifetimes of worker
+// processes): (10⁻⁶)². No clock resolves a millionth of the duration of a batch, so a smaller
+// variance would be an artefact of the timers.
 constexpr double least_variance = 1e-12;
 
 PairVerdict unconfirmed(const Interval& interval, const SequentialDesign& design) {

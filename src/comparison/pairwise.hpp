@@ -107,20 +107,23 @@ struct Confirmation {
                  // at each end
   double p = 1;  // p-value of the hypothesis that the shift is not larger than tolerated
 };
-// Compares the mean of the process runs with τ₀ by Student's t test. The variance between process
-// runs is moderated over all suspects (moderated_variance() in estimation/statistics.hpp). The
-// Benjamini–Hochberg procedure is applied to the suspects with the rate `q`. The resulting false
-// discovery rate holds for all configurations for two reasons: the process run that selected the
-// suspects is not used for the confirmation, and no other configuration is called slower or faster.
+// Compares the mean of the process runs with τ₀ (SequentialDesign::tolerated) by Student's t test.
+// Each suspect has only a few process runs, so the estimate of its variance is made more accurate
+// with the variances of the other suspects (moderated_variance() in estimation/statistics.hpp). The
+// Benjamini–Hochberg procedure with the rate `q` then decides which suspects are confirmed. The
+// resulting false discovery rate holds for all configurations for two reasons: the process run that
+// selected the suspects is not used for the confirmation, and no other configuration is called
+// slower or faster.
 //
 // A suspect that is not confirmed gets the verdict `same` if its interval proves it, and
 // `undecided` otherwise. A suspect with fewer than least_process_runs process runs is undecided.
 [[nodiscard]] std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
                                                 const SequentialDesign& design);
 
-// A function that measures the fresh process run `number` for each of the suspects `open`. The next
-// look takes place after process run `until`. Returns false if no more runs are possible. Suspects
-// about which a look has decided are not measured again.
+// A function that measures one fresh process run for each suspect whose index is in `open`.
+// Suspects about which a look has decided are no longer in `open`. `number` is the number of this
+// process run (1, 2, …), and the next look takes place after the process run with the number
+// `until`. The function returns false if no more process runs are possible.
 using RunAgain =
     std::function<bool(std::span<const std::size_t> open, std::size_t number, std::size_t until)>;
 [[nodiscard]] std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,

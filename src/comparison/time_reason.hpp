@@ -47,7 +47,7 @@ enum class WallClockCause : std::uint8_t {
   a_not_calibrated,  // the device clock of side a failed its calibration
   b_not_calibrated,
   neither_calibrated,
-  implausible  // the device times of the batches are implausible
+  implausible  // a device time is 0, longer than the wall-clock time, or much shorter
 };
 [[nodiscard]] std::string_view name_of(WallClockCause cause);
 

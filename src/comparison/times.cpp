@@ -205,8 +205,8 @@ class Timer {
       const int total = static_cast<int>(entries_.size());
       show({.stage = ComparisonStage::more_blocks}, *widest, total - open, total, most_left_s());
       about(*widest, [&] {
-        // If the budget ends before the planned number of blocks, the blocks measured so far are
-        // evaluated.
+        // If the budget ends too early, draw_until() measures fewer blocks than planned.
+        // judge_blocks() then evaluates the blocks that were measured.
         draw_until(*widest, options_.design.next_look(widest->compared.blocks));
         judge_blocks(*widest);
       });

@@ -17,14 +17,15 @@ namespace {
 using Points = std::span<const double>;
 
 constexpr std::size_t parameters = 2;
-// The breakdown point (the tolerated share of outliers). It is also the mean of ρ, Tukey's bisquare
-// function (regression.hpp), that defines the scale of residuals.
+// The breakdown point (the tolerated share of outliers). The scale of the residuals is chosen so
+// that the mean of ρ, Tukey's bisquare function (regression.hpp), has this value.
 constexpr double half = 0.5;
 constexpr int most_steps = 200;
 constexpr double step_tolerance = 1e-10;
-// The number of lines through two points that the S-estimate tries: for up to 45 points the lines
-// through all pairs, otherwise through random pairs. If half of the points are outliers, the
-// probability that every one of 990 pairs contains an outlier is 0.75⁹⁹⁰.
+// The maximum number of lines through two points that the S-estimate tries. For up to 45 points, it
+// tries the lines through all pairs; for more points, it tries lines through random pairs. If half
+// of the points are outliers, the probability that every one of 990 pairs contains an outlier is
+// 0.75⁹⁹⁰.
 constexpr std::size_t most_pairs = 990;
 
 void require_points(Points x, Points y) {
@@ -84,8 +85,8 @@ double rho(double u) {
   return 1 - rest * rest * rest;
 }
 
-// Returns Σρ/(n − 2) for the n residuals. The scale of the residuals is the value of `scale` for
-// which this mean of ρ is 1/2.
+// Returns Σρ/(n − 2) for the n residuals, where ρ is Tukey's bisquare function (regression.hpp).
+// The scale of the residuals is the value of `scale` for which this result is 1/2.
 double mean_rho(Points residuals, double scale) {
   double sum = 0;
   for (const double residual : residuals) sum += rho(residual / (Bisquare::c_breakdown * scale));
@@ -99,9 +100,9 @@ double least_scale(Points y) {
   return 1e-13 * std::max(largest, std::numeric_limits<double>::min());
 }
 
-// Returns the scale s of the residuals, for which mean_rho(residuals, s) is 1/2. It is found by
-// iterating s² ← s²·mean_rho(residuals, s)/½, which approaches it from one side (Maronna et al.
-// 2019, section 9.4).
+// Returns the scale of the residuals: the number s for which mean_rho(residuals, s) is 1/2, or 0 if
+// s is not above `least`. The iteration s² ← s²·mean_rho(residuals, s)/½ approaches s from one side
+// (Maronna et al. 2019, section 9.4).
 double m_scale(Points residuals, double least) {
   std::vector<double> sizes(residuals.size());
   std::ranges::transform(residuals, sizes.begin(), [](double r) { return std::abs(r); });
@@ -135,8 +136,8 @@ struct Candidate {
   double scale = std::numeric_limits<double>::infinity();
 };
 
-// Refines a line by iteratively reweighted least squares, which never increases the scale, until it
-// converges.
+// Refines a line by iteratively reweighted least squares until it converges. No step increases the
+// scale of the residuals.
 Candidate refined(Points x, Points y, Line line, double least) {
   Candidate best{line, m_scale(residuals_of(x, y, line), least)};
   for (int step = 0; step < most_steps && best.scale > 0; ++step) {
@@ -151,10 +152,11 @@ Candidate refined(Points x, Points y, Line line, double least) {
   return best;
 }
 
-// Stores the line with the smallest scale so far. try_pair() examines the line through two points.
-// If this line has a smaller scale than the stored line, it is refined and replaces the stored
-// line. Its scale is smaller if its mean of ρ is below 1/2 at the stored scale, so the scale of a
-// rejected line need not be computed.
+// Stores the line whose residuals have the smallest scale so far. try_pair() examines the line
+// through two points. If its scale is smaller than the stored scale, the line is refined and
+// replaces the stored line. For this comparison, try_pair() need not compute the scale of the new
+// line: the scale is smaller if mean_rho() at the stored scale is below 1/2, because mean_rho()
+// decreases with the scale.
 class SmallestScale {
  public:
   SmallestScale(Points x, Points y) : x_(x), y_(y), least_(least_scale(y)) {}

@@ -34,8 +34,9 @@ struct LeastSquares {
 // outliers.
 [[nodiscard]] Line theil_sen(std::span<const double> x, std::span<const double> y);
 
-// Tukey's bisquare function: ρ(u) = 1 − (1 − u²)³ for |u| ≤ 1, otherwise 1, with
-// u = residual/(c·scale).
+// Tukey's bisquare function: ρ(u) = 1 − (1 − u²)³ for |u| ≤ 1, otherwise 1. Here u is
+// residual/(c·scale), where `scale` is a robust standard deviation of the residuals and c is one of
+// these constants.
 struct Bisquare {
   // With this c, the mean of ρ is 1/2 for normal residuals, so up to half of the points may be
   // outliers.
@@ -58,7 +59,8 @@ struct RobustLine {
   std::vector<double> residuals;
   std::vector<double> weights;  // weights of the last iteration, in [0, 1]; 0 for an outlier
   // The leverage h of each point: the variance that the error of the fit adds to the point's
-  // residual, in units of ŝ². With the weights of the points it is 1/Σw + (x − x̄)²/Σw(x − x̄)².
+  // residual, in units of ŝ². With the weights w of the points and the weighted mean x̄ of x,
+  // h = 1/Σw + (x − x̄)²/Σw(x − x̄)².
   std::vector<double> leverages;
 };
 
@@ -70,11 +72,12 @@ struct RobustLine {
 // otherwise 0.
 [[nodiscard]] double bisquare_weight(double residual, double scale);
 
-// Returns κ = [Σψ²/(n − p)] / [Σψ′/n]² for n residuals and p fitted parameters, where
-// ψ(r) = r·(1 − u²)² for a residual of r·scale with u = r/c_efficient and |u| ≤ 1, otherwise 0. The
-// asymptotic variance of an M-estimate is κ·scale²·(XᵀWX/mean w)⁻¹ (Koller & Stahel 2011), where X
-// is the design matrix and W contains the weights w of the points. Without W, a distant outlier
-// would make the estimate look more certain. κ is 1/0.95 for normal residuals and many points.
+// Returns κ = [Σψ²/(n − p)] / [Σψ′/n]² for n residuals and p fitted parameters. Both sums are over
+// ψ and its derivative ψ′ at r = residual/scale, where ψ(r) = r·(1 − u²)² with u = r/c_efficient if
+// |u| ≤ 1, otherwise 0. The asymptotic variance of an M-estimate is κ·scale²·(XᵀWX/mean w)⁻¹
+// (Koller & Stahel 2011), where X is the design matrix and W contains the weights w of the points.
+// Without W, a distant outlier would make the estimate look more certain. κ is 1/0.95 for normal
+// residuals and many points.
 [[nodiscard]] double robust_variance(std::span<const double> residuals, double scale,
                                      std::size_t parameters);
 

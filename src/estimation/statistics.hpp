@@ -28,10 +28,10 @@ inline constexpr double normal_mad = 1.482602218505602;  // 1/Φ⁻¹(3/4)
 // Returns, for each p-value, the smallest q at which benjamini_hochberg() rejects its hypothesis.
 [[nodiscard]] std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values);
 
-// Estimates of the variances of many groups become more accurate if they are combined. The prior is
-// a scaled inverse chi-square distribution with d₀ degrees of freedom around s₀². It is fitted to
-// the groups' variances by the moments of ln s² (Smyth 2004, "Linear models and empirical Bayes
-// methods", section 6.2).
+// Estimates of the variances s² of many groups become more accurate if they are combined. The prior
+// distribution of the variances is a scaled inverse chi-square distribution with d₀ degrees of
+// freedom around s₀². It is fitted to the mean and the variance of ln s² over the groups (Smyth
+// 2004, "Linear models and empirical Bayes methods", section 6.2).
 struct VariancePrior {
   double degrees = 0;   // d₀; infinite if the variances differ no more than expected by chance
   double variance = 0;  // s₀²

@@ -197,8 +197,8 @@ std::string kind_of(const Observation& what) {
   }
   const bool alone = what.changes.size() == 1;
   for (const Change& each : what.changes) {
-    // Cache misses are left out unless they are the only change, because they often increase only
-    // as a consequence of the other changes.
+    // The kind does not name cache misses, unless they are the only change, because they often
+    // increase only as a consequence of the other changes.
     if (each.unit == Unit::misses && !alone) continue;
     kind += " " + each.name;
   }

@@ -105,7 +105,8 @@ enum class Cause : std::uint8_t {
   same_frames,  // not timed, because a configuration with the same work was timed instead [reason]
   wrong_image,  // the time is meaningless, because the image is wrong [because: its errors]
 
-  // Causes that concern correlations.
+  // Causes that concern correlations. The line is fitted to the costs of this device as a function
+  // of the costs of the device <other>.
   residuals_as_stored,  // the cost ratios to other devices are unchanged [names: devices]
   residual_moved,       // the cost ratios to other devices changed [names: devices]
   off_the_line,         // the cost differs from the cost predicted by the line for <other>
@@ -128,7 +129,7 @@ enum class Cause : std::uint8_t {
   farther_device,  // <other> draws a different image, closer to the reference ["rms" "allowed"]
   pixels_differ,   // the image should equal the image with <levels>, but differs from it
   no_other_image,  // the image with <levels> that an expectation needs is missing
-  not_inside,      // the image should equal a part of the image with <levels>, which is too small
+  not_inside,      // the image with <levels>, of which this image should be a part, is too small
   other_colour,    // a pixel does not have the expected colour
   not_counted,     // a counter that an expectation needs is missing [<counter> <levels>]
   count_too_large  // a count exceeds "factor" times "unit" [<counter> <of> <levels> "count"]

@@ -10,8 +10,8 @@ namespace triptych::record {
 
 // Escapes a value for use in a list. A comma becomes '%2C' and '=' becomes '%3D', as in URLs (RFC
 // 3986, 2.1). In a list, both characters are therefore always separators, and a list can be split
-// without knowing the values. '%' becomes '%25' only if it would otherwise begin one of these three
-// sequences. All other characters are unchanged.
+// without knowing the values. '%' becomes '%25', but only where the value contains '%2C', '%3D' or
+// '%25'. All other characters are unchanged.
 [[nodiscard]] std::string escaped(std::string_view value);
 // The inverse of escaped(). Text without an escape sequence is unchanged.
 [[nodiscard]] std::string unescaped(std::string_view text);

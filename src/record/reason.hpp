@@ -93,8 +93,9 @@ class NotMeasured : public core::Error {
   NotMeasured(Outcome outcome, Reason reason);
   [[nodiscard]] Outcome outcome() const noexcept { return outcome_; }
   [[nodiscard]] const Reason& reason() const noexcept { return reason_; }
-  // Returns usage if the input is broken or an error occurred. Returns cannot_judge if the
-  // configuration was skipped for any other reason, such as a missing feature or data file.
+  // Returns ExitCode::usage if the input is broken or an error occurred. Returns
+  // ExitCode::cannot_judge if the configuration was skipped for any other reason, such as a missing
+  // feature or data file.
   [[nodiscard]] core::ExitCode exit_code() const noexcept;
 
  private:

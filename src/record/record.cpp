@@ -65,8 +65,8 @@ std::string test_id_part(std::string_view text) {
   return result;
 }
 
-// Returns a quantile by linear interpolation between the two order statistics next to the index
-// share·(n−1).
+// Returns a quantile of n sorted values, by linear interpolation between the two values next to the
+// index share·(n − 1).
 double quantile_of_sorted(const std::vector<double>& sorted, double share) {
   const double place = std::clamp(share, 0.0, 1.0) * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);

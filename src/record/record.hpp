@@ -80,8 +80,8 @@ struct Record {
   std::string run;  // Run::id of the run to which this record belongs
   std::string suite;
   std::string plan;  // "volume/quick", or the name of the plan's file without extension
-  // Canonical "factor=value,…" of technique, data, camera, and all other factors that differ from
-  // their defaults.
+  // The key of the configuration: a canonical list "factor=value,…" of technique, data, camera, and
+  // all other factors that do not have their default values.
   std::string configuration;
   std::string scene;  // canonical list of the factors that determine the image
   std::string technique;
@@ -139,8 +139,9 @@ struct Record {
   [[nodiscard]] bool untimed() const {
     return outcome == Outcome::measured && warm_up_frames == 0 && wall_ns.empty();
   }
-  // Returns the number of instructions per frame in device code and in the driver. This number does
-  // not vary between processes. Returns nullopt if instructions were not counted.
+  // Returns the number of instructions per frame in device code and in the driver. Unlike the counts
+  // of "libc" and "program", this number hardly varies between processes. Returns nullopt if
+  // instructions were not counted.
   [[nodiscard]] std::optional<std::uint64_t> instructions() const;
   // Returns the number of bytes that device code loaded into the simulated cache, which has lines
   // of 64 bytes.

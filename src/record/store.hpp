@@ -85,9 +85,9 @@ class Store {
       const Record& record);  // replaces the record of the same run, configuration and device
   // Records that a configuration is about to be measured. When this function returns, everything
   // that was stored so far is on the disk, because the measurement may crash the machine. Returns
-  // the number of calls for this configuration, including this call, since a record of the
-  // configuration was last added. unbegin_record() reverts one call if the user interrupted the
-  // run.
+  // how often the measurement was begun, including this time, since a record of the configuration
+  // was last added; a number above 1 means that earlier attempts never finished. unbegin_record()
+  // reverts one call if the user interrupted the run.
   int begin_record(const std::string& run, const std::string& configuration,
                    const std::string& device);
   void unbegin_record(const std::string& run, const std::string& configuration,

@@ -1,5 +1,6 @@
 #pragma once
-// Facts that a reader must know regardless of the verdict.
+// Notes about runs, such as injected faults or missing data files, that the reader of a verdict
+// must know even if the run passed.
 
 #include <span>
 #include <string>

@@ -248,8 +248,10 @@ class Grouping {
     return {wrong.begin(), wrong.end()};
   }
 
-  // Returns the affected levels of each factor if there are at most two of them, or else the only
-  // level that is not affected. Longer lists would not help the reader.
+  // Returns the factor levels that distinguish the configurations of the group from all other
+  // configurations on the device: "step=0.5" or "step=0.5|1" if the group has at most two levels of
+  // a factor, or "technique≠tiles" if it has all levels but one. All other factors are left out,
+  // because longer lists would not help the reader.
   [[nodiscard]] std::string signature_of(const Members& members) const {
     Levels here;
     for (const Finding* each : members) {
@@ -369,7 +371,8 @@ bool take_in(FindingGroup& group, const FindingGroup& other) {
     group.right_on = other.right_on;
     group.wrong_on = other.wrong_on;
   }
-  // If all findings are equally severe, such as skips, the smallest case is also the worst.
+  // If several findings are equally severe, worse_of() prefers its first argument. Therefore the
+  // smallest case is also the worst case if all findings are equally severe, as skips are.
   group.worst = worse_of(group.first, worse_of(group.worst, other.worst));
   group.configurations += other.configurations;
   group.members.insert(group.members.end(), other.members.begin(), other.members.end());
@@ -393,7 +396,8 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
                   .injected = finding.injected,
                   .limit = finding.reason.limit(),
                   .more = {"--truth", "--out", "repro"}};
-  // The check `code` draws nothing. The command prints the compiled code and its statistics.
+  // Nothing is drawn for the check `code`, so the command prints the compiled code and its
+  // statistics.
   if (finding.check == Check::code) {
     command.command = "code";
     command.more.clear();

@@ -11,13 +11,14 @@
 
 namespace triptych::report {
 
-// States whether the driver is at fault. This is derived from the results of other devices.
+// States whether the driver is at fault. This is derived from the results of other devices, which
+// are listed in `devices`.
 struct Blame {
   enum class Of : std::uint8_t {
     unknown,
-    driver,                 // the driver is at fault: `devices` with this API pass
-    driver_since_accepted,  // the driver is at fault: `devices` with this API passed when accepted
-    not_the_driver          // the driver is not at fault: `devices` with other drivers also fail
+    driver,                 // at fault: the devices, which have the same API, pass
+    driver_since_accepted,  // at fault: the devices, which have the same API, passed when accepted
+    not_the_driver          // not at fault: the devices, which have other drivers, fail, too
   };
   Of of = Of::unknown;
   std::vector<std::string> devices = {};

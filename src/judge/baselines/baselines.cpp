@@ -74,8 +74,9 @@ struct Baselines::Cache {
   const ByName<StoredImage>& stored_images() {
     return table(images, Layout::images, read_stored_image);
   }
-  // The calibration is in the same file as the statistics. It is missing if the driver was not
-  // calibrated when it was accepted.
+  // Returns how exactly the driver counts each statistic (its calibration). The calibration is in
+  // the same file as the statistics. It is missing if the driver was not calibrated when it was
+  // accepted.
   const ByName<record::StatisticWorth>& calibration_of(const fs::path& path) {
     const auto known = calibrations.find(path);
     if (known != calibrations.end()) return known->second;

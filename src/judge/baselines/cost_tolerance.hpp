@@ -62,10 +62,10 @@ inline constexpr std::array cost_tolerances{
   return 0;
 }
 
-// The techniques whose number of cache misses is reproducible. In each run, a buffer starts at a
-// different offset within a cache line. For volumes, this changed the number of misses by at most
-// 0.07 %, or by a few misses if there are only about a hundred. Sprites and tiles use about as much
-// memory as the cache holds, so their number of misses changed by 5 %.
+// The techniques whose number of cache misses is nearly the same in all runs. It varies slightly,
+// because a buffer starts at a different offset within a cache line in each run. For volumes, it
+// varied by at most 0.07 %, or by a few misses if there were only about a hundred. Sprites and
+// tiles use about as much memory as the cache holds, so their number of misses varied by 5 %.
 inline constexpr std::array<std::string_view, 2> techniques_with_stable_misses{"raycast*",
                                                                                "speed_of_light"};
 

@@ -13,7 +13,7 @@ namespace triptych::judge {
 namespace {
 
 constexpr double steps = 4096;
-constexpr double largest = 1e12;  // in steps; all larger values and NaN are mapped to one value
+constexpr double largest = 1e12;  // in cells of 1/4096; larger values and NaN become one value
 
 std::string hash_on(const core::Image& image, double offset) {
   std::vector<std::int64_t> cells{image.width, image.height};
@@ -28,8 +28,9 @@ std::string hash_on(const core::Image& image, double offset) {
 }  // namespace
 
 ReferenceHash reference_hash(const core::Image& image) {
-  // With these offsets, 0, 1 and all other multiples of half a step lie in the middle between a
-  // cell's centre and its edge, so that round-off cannot move them to another cell.
+  // These offsets are in units of the cell width, 1/4096. With them, 0, 1 and all other multiples
+  // of half a cell width lie in the middle between a cell's centre and its edge, so that round-off
+  // cannot move them to another cell.
   return {hash_on(image, 0.25), hash_on(image, 0.75)};
 }
 

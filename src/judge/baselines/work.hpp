@@ -1,5 +1,5 @@
 #pragma once
-// Computes how much of a change in time comes from a changed amount of work:
+// Computes how much of a change in the frame time t comes from a changed amount of work:
 // Δ ln t = Δ ln(work) + Δ ln(time per unit of work). One of Triptych's counters measures the
 // work, so a unit of work is, for example, one sample.
 

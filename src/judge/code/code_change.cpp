@@ -106,7 +106,8 @@ void compare_executable(const std::string& name, const record::Executable& befor
     const auto old = before.statistics.find(statistic);
     if (old == before.statistics.end() || old->second == value) continue;
     CodeStatistic meaning = code_statistic(statistic);
-    // If one side does not report the number of instructions, the code size decides instead.
+    // If one side does not report the number of instructions, a change in the code size affects the
+    // verdict instead.
     if (!counted && meaning.rank == quantity::code_size.rank) meaning.decides = true;
     comparison.changes.push_back({.executable = name,
                                   .driver_name = statistic,
@@ -114,10 +115,9 @@ void compare_executable(const std::string& name, const record::Executable& befor
                                   .before = old->second,
                                   .now = value});
   }
-  // If only the code size differs, and both sides report the number of instructions, the
-  // instructions are the same, and only their encodings or the waits between them differ. Such a
-  // change is dropped, because the waits that LLVM inserts differ from run to run
-  // (measure/code/compiled_code.cpp).
+  // If both sides report the number of instructions, but only the code size changed, then only the
+  // encodings of the instructions or the waits between them differ. Such a change is dropped,
+  // because the waits that LLVM inserts differ from run to run (measure/code/compiled_code.cpp).
   const bool same_instructions =
       counted &&
       std::ranges::all_of(

@@ -40,7 +40,8 @@ Values plain(Values logarithms) {
   return logarithms;
 }
 
-// Returns why the line is refused. The comparisons are written so that NaN is refused, too.
+// Returns why the fitted line must not be used, or LineRefusal::none. The comparisons are written
+// so that a line with NaN is refused, too.
 LineRefusal refusal_of(const CorrelationLine& line) {
   if (line.configurations < Model::least_configurations) {
     return LineRefusal::too_few_configurations;
@@ -70,10 +71,11 @@ estimation::RobustLine fit_of(const Values& x, const Values& y) {
   return fit;
 }
 
-// Sets the weights of the configurations in `side`, which are either all configurations that have a
-// factor level or all that do not have it. The weights depend on the deviations from the median
-// residual of `side`, which are returned in `centred`. Therefore, if a level shifts the residuals
-// of all its configurations, they do not count as outliers.
+// Sets the weights of the configurations whose indices are in `side`: all configurations with a
+// factor level, or all configurations without it. Each weight depends on the deviation of a
+// residual from the median residual of `side`; these deviations are returned in `centred`.
+// Therefore, if a level shifts the residuals of all its configurations, these configurations do not
+// count as outliers.
 void weigh_side(const Values& residuals, const std::vector<std::size_t>& side, double scale,
                 Values& weights, Values& centred) {
   Values values;
@@ -102,9 +104,10 @@ double weighted_product(const Values& weights, const Values& a, const Values& b)
   return product;
 }
 
-// Computes the coefficient g of the level's indicator d in y = a + b·x + g·d. First removes the
-// regression of d on x (Frisch and Waugh 1933), because otherwise b would absorb a part of the
-// effect if all configurations of the level are expensive.
+// Computes the effect g of a factor level in the model y = a + b·x + g·d. Here x and y are the
+// logarithms of a configuration's costs on the two devices, and d is 1 if the configuration has the
+// level, otherwise 0. First removes the regression of d on x (Frisch and Waugh 1933), because
+// otherwise b would absorb a part of the effect if all configurations with the level are expensive.
 OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
                         const FactorLevel& level) {
   Values weights(x.size());

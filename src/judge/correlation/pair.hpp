@@ -10,7 +10,8 @@
 
 namespace triptych::judge {
 
-// The reason why a line cannot be used to judge a device. The thresholds are in LineModel.
+// The reason why the line that was fitted to the costs of two devices cannot be used to judge one
+// of them. The thresholds are in LineModel.
 enum class LineRefusal : std::uint8_t {
   none,
   too_few_configurations,

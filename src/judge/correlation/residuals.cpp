@@ -84,9 +84,9 @@ class Explanation {
     return effect;
   }
 
-  // Adds the level that explains most of the remaining sum of squares. Returns false, which ends
-  // the search, if there is no such level, or if the level leaves as many changes unexplained as
-  // before.
+  // Adds the level that explains most of the sum of squares of the remaining changes. Returns
+  // false, which ends the search, if there is no such level, or if the level leaves as many changes
+  // unexplained as before.
   bool find_level() {
     const FactorLevel* best = nullptr;
     double most = 0;

@@ -1,8 +1,8 @@
 #pragma once
-// Compares two accepted devices A and B. Let A0 and B0 be their stored costs for a configuration,
-// and r0 = ln B0 − ln A0 their stored residual. If the residual r of the current run differs from
-// r0 by more than the counts of both devices vary between measurements, the cost of A or B has
-// changed: r − r0 is the change of ln B minus the change of ln A.
+// Finds changes in the costs of two accepted devices, A and B. The residual r of a configuration is
+// the logarithm of its cost on B minus the logarithm of its cost on A; r0 is the same difference
+// for the stored costs. If r differs from r0 by more than the counts of the two devices may vary
+// between measurements, the cost on A or on B has changed.
 
 #include <cstddef>
 #include <cstdint>

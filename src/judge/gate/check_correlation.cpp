@@ -29,7 +29,7 @@ Finding about_device(const DeviceCost& device, Verdict verdict, Observation what
 struct Moved {
   const DeviceCost* device = nullptr;
   std::vector<const record::Record*> records;
-  std::vector<double> by;        // change of each record; 0 if no pair's residual changed
+  std::vector<double> by;        // change in ln cost of each record; 0 if no residual changed
   std::set<std::string> held;    // names of the devices with which this device was compared
   std::set<std::string> beside;  // names of the devices whose residual with this device changed
 };
@@ -123,7 +123,7 @@ void judge_accepted(const Moved& moved, std::vector<Finding>& findings) {
                     .names = {moved.held.begin(), moved.held.end()}}));
 }
 
-// --- New devices: their costs are compared with the costs that a line predicts ------------------
+// --- New devices: their costs are compared with the predictions of a fitted line -----------------
 
 void add_fit(Observation& what, const CorrelationLine& line) {
   set_number(what, "configurations", static_cast<double>(line.configurations));
@@ -205,7 +205,7 @@ void judge_new(const DeviceCost& device, std::vector<CorrelationPair>& pairs,
   findings.push_back(about_device(device, Verdict::advisory, std::move(what)));
 }
 
-// --- Pairs ---------------------------------------------------------------------------------------
+// --- Pairs of devices ----------------------------------------------------------------------------
 
 // Returns all pairs of devices in the run, and the pairs of a new device and an accepted device
 // that is not in the run. Pairs of two new devices are shown but not judged.

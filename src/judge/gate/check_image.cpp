@@ -63,7 +63,8 @@ class SceneJudge {
     judge_image(record, std::move(image), pair);
   }
 
-  // Compares the devices with each other. Call it after all records of the scene have been judged.
+  // Compares the images of different devices, and reports the two images that differ most. Call
+  // this function after all records of the scene have been judged.
   void judge_agreement() {
     const Picture* left = nullptr;
     const Picture* right = nullptr;

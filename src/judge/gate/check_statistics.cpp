@@ -56,8 +56,8 @@ Finding check_exact(const RunView& view, const record::Record& record,
                {.cause = Cause::as_stored, .numbers = {{"values", values}}, .names = unsteady});
 }
 
-// The result of comparing a device with all stored drivers. This comparison is made if there are no
-// baselines for the device's own driver version.
+// The result of comparing the statistics of a device with the statistics of all stored drivers.
+// This comparison is made if there are no baselines for the device's own driver version.
 struct Elsewhere {
   std::size_t configurations = 0;
   std::map<std::string, Change>

@@ -77,9 +77,10 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
 }
 
 // Returns whether this skipped configuration was measured on the device when the baselines were
-// accepted, so that it counts as missing. An environment variable that overrides the driver's
-// capabilities (MESA_GL_VERSION_OVERRIDE) makes it a different device, to which this does not
-// apply.
+// accepted; the skip then counts as a missing result. Returns false if lacking.json states that
+// this driver version does not support the configuration. Also returns false if an environment
+// variable such as MESA_GL_VERSION_OVERRIDE changes the capabilities of the driver, because the
+// baselines were accepted without this change.
 bool measured_before(const RunView& view, const record::Record& record) {
   const bool overridden = std::ranges::any_of(
       view.device(record).environment,

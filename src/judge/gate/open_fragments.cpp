@@ -21,8 +21,9 @@ std::optional<double> told(const record::Record& record, const char* name) {
 bool is_open(const std::string& counter, const record::Record& record) {
   if (counter == "fragments" || counter == "fragments_discarded") return true;
   // The counters fragments_kept and visible_ids may differ only if rays are computed at the
-  // vertices. Snapping a vertex to the sub-pixel grid then also moves its ray, and with it the
-  // silhouette, which determines the visible surface.
+  // vertices: when a driver snaps a vertex to its sub-pixel grid, it then also moves the ray of the
+  // vertex. This moves the silhouettes of the spheres, and may change which surface is visible in a
+  // pixel.
   const auto ray = record.factors.find("ray");
   return (counter == "fragments_kept" || counter == "visible_ids") && ray != record.factors.end() &&
          ray->second == "vertex";

@@ -20,7 +20,8 @@ struct RunView {
   std::vector<record::Record> records;            // the records of the requested devices
   std::map<std::string, record::Device> devices;  // by id
   std::vector<const record::Record*> measured;    // pointers into `records`
-  // Measured records whose data differ from the accepted data or have changed since.
+  // Measured records whose data differ from the accepted data, or whose data have changed since the
+  // measurement.
   std::vector<const record::Record*> of_other_data;
 
   [[nodiscard]] const record::Device& device(const record::Record& record) const {

@@ -76,7 +76,9 @@ std::string sequence(const BugReport& report) {
   return text;
 }
 
-// States how far the search got.
+// Returns a sentence about the search for a simpler frame, or for a shorter sequence of
+// configurations, that also fails: either there is none, or the search reached its maximum number
+// of frames.
 std::string_view end_of_search(const BugReport& report) {
   if (report.before.empty()) {
     return report.complete ? "If any factor is simplified further, the frame no longer fails in "

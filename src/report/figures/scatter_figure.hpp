@@ -13,11 +13,11 @@ struct ScatterFigure {
     std::string name;       // the name of the configuration
     std::string technique;  // determines the colour
     double across, up;
-    double deviation = 0;   // relative deviation from the line: 0.1 is 10 % more
+    double deviation = 0;   // relative deviation from the fitted line: 0.1 is 10 % more
     std::string flag = {};  // "more" or "less": drawn as a labelled cross; empty: not flagged
   };
   struct Line {
-    double intercept, slope;  // ln up = intercept + slope · ln across
+    double intercept, slope;  // the fitted line: ln up = intercept + slope · ln across
   };
   std::string across;  // titles of the axes, including the unit
   std::string up;

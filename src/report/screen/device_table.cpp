@@ -15,7 +15,8 @@ namespace {
 
 using comparison::SideBySide;
 
-// Returns "1.32", or "1.32 (samples ×1.10)" if the amount of work differs by 1 % or more.
+// Returns the cost relative to the best device, such as "1.32". If the amount of work differs by 1
+// % or more, returns "1.32 (samples ×1.10)".
 std::string text_of(const SideBySide::Cell& cell) {
   std::string text = fmt::format("{:.2f}", cell.ratio);
   for (const auto& [name, work] : cell.work) {
@@ -33,7 +34,8 @@ bool is_a_choice(const std::string& technique) {
 }
 
 // Returns the cheapest technique on the device: "tiles 2.5 ms". Considers only the techniques with
-// the largest number of configurations. Returns "" if none of them was measured on the device.
+// the largest number of configurations, because means over different configurations cannot be
+// compared. Returns "" if none of these techniques was measured on the device.
 std::string least_text(const SideBySide& table, const std::string& device) {
   std::size_t most = 0;
   for (const SideBySide::Row& row : table.rows) most = std::max(most, row.configurations);

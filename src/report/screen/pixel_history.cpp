@@ -107,8 +107,8 @@ std::string reference_line(const SampleRow& row) {
               expected.length.value, expected.opacity.value));
 }
 
-// Returns whether the row is merged with its neighbours into one line. This is done for samples
-// that are transparent, whether or not the device took them.
+// Returns whether the row is merged with its neighbours into one line. This is done if the device
+// and the reference agree, and the device either left the sample out or found it to be transparent.
 bool is_quiet(const SampleRow& row) {
   return !row.differs && (!row.taken || row.taken->opacity == 0);
 }
@@ -237,7 +237,8 @@ void add_sprite(const accuracy::SpriteHistory& history, std::size_t at, PixelTex
                                   : "")));
 }
 
-// Describes the smallest set of particles with which the pixel is wrong.
+// Describes the smallest set of particles that was found for which the pixel is wrong if only these
+// particles are drawn.
 std::string about_fewest(const accuracy::SpriteHistory& history) {
   constexpr std::size_t most_named = 16;
   const std::size_t count = history.fewest.size();

@@ -27,7 +27,8 @@ struct PixelInImage {
   std::uint64_t lost = 0;  // number of samples that did not fit into the recording buffer
 };
 
-// The colours of the pixel, the first difference, and the table of its samples.
+// The text about a pixel. `summary` contains its colours and the first difference between the
+// device and the reference. `table` lists the samples or the spheres along the pixel's ray.
 struct PixelText {
   std::vector<std::string> summary;
   std::vector<std::string> table;  // the first line is the heading

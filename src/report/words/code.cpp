@@ -22,8 +22,8 @@ std::string change_text(const CodeChange& change) {
   return text;
 }
 
-// Lists the changes of one executable. Changed register counts follow the occupancy in parentheses,
-// because they explain it.
+// Lists the changes of one executable. If the occupancy changed, the changed register counts are
+// written in parentheses after the occupancy, because they explain its change.
 std::string executable_text(const std::vector<CodeChange>& changes) {
   std::vector<std::string> deciding;
   std::vector<std::string> others;

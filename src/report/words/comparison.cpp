@@ -175,7 +175,8 @@ bool has(const std::vector<KeyPart>& parts, const KeyPart& part) {
   return std::ranges::find(parts, part) != parts.end();
 }
 
-// Returns the parts that `b` has and `a` does not have, and the variables that only `a` sets.
+// Returns the parts of a device key that are in `b` but not in `a`, and the environment variables
+// that only `a` sets.
 std::vector<std::string> differing(const std::vector<KeyPart>& a, const std::vector<KeyPart>& b) {
   std::vector<std::string> parts;
   for (const KeyPart& part : b) {

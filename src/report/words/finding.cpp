@@ -21,7 +21,9 @@ using judge::GateResult;
 using judge::Known;
 using judge::Verdict;
 
-// Returns the words before the sentence of a finding that is excused or unexpected.
+// Returns a prefix for the sentence about a finding, such as "known failure: " or "unexpectedly
+// skipped: ". The prefix depends on the waivers and on the file of expectations (the list of known
+// failures); it is empty if they do not concern the finding.
 std::string excuse(const Finding& finding) {
   const Excuse& excuse = finding.excuse;
   switch (excuse.of) {
