@@ -21,7 +21,8 @@ struct Chord {
 };
 
 // Clips the ray of pixel (x, y) against one plane after the other. The algorithm deliberately
-// differs from that of the renderer, because the two are checked against each other.
+// differs from the one with which the reference renderer clips rays (ray.cpp), because the two are
+// checked against each other.
 Chord chord_of(const Setting& setting, int x, int y) {
   Chord chord;
   chord.direction =
@@ -222,9 +223,9 @@ double length_within(const Chord& chord, const Closest& closest, double radius) 
 // one entry to the next within h ≈ R/510 on each side of the face, where R is Shell::reach. The
 // grid stores the distance r from the centre. When it is interpolated, its error is at most
 // D/(r − d), plus rounding. Here, d is the diagonal of a cell, and D = Σ Δᵢ²/8 because
-// |∂ᵢ²r| ≤ 1/r, with Δᵢ the spacing along axis i. Therefore w is the smaller root of
-// (w − h)(s − w) = D with s = face − d. The result is infinite if there is no root, which means
-// that the grid is too coarse.
+// |∂ᵢ²r| ≤ 1/r, with Δᵢ the spacing along axis i. In the zone, r is at least face − w, so w must be
+// h + D/(face − w − d). With s = face − d, this is the smaller root of (w − h)(s − w) = D. The
+// result is infinite if there is no root, which means that the grid is too coarse.
 double unsure_zone(const Setting& setting, double face) {
   const auto& spacing = setting.options.spacing;
   double squares = 0;

@@ -20,9 +20,9 @@ namespace triptych::reference {
   return length > 0.0 ? length * extinction : 0.0;
 }
 
-// Returns the mean of −ln(1 − alpha) for an alpha that changes linearly from a to b. It uses the
-// antiderivative F(α) = (1 − α)·ln(1 − α) + α or, where the difference of F would suffer from
-// cancellation, its series around the middle.
+// Returns the mean of −ln(1 − alpha) for an alpha that changes linearly from a to b. It is computed
+// from the antiderivative F(α) = (1 − α)·ln(1 − α) + α. If F(b) − F(a) would suffer from
+// cancellation, it is computed from a series around the middle of a and b instead.
 [[nodiscard]] inline double mean_extinction(double a, double b) {
   const double middle = 0.5 * (a + b);
   const double left = 1.0 - middle;

@@ -109,7 +109,8 @@ Segment Preintegration::operator()(const Bounded& front, const Bounded& back,
   for (const PathPiece& piece : pieces) {
     const double before = light.depth;
     add({piece.a, piece.b, piece.length * length.nominal, piece.middle}, 0, light);
-    // If the pieces in front are opaque, the depth of this piece is unknown.
+    // If the pieces in front are opaque, `before` is infinite, and the depth of this piece cannot
+    // be computed. Nothing of the piece is visible then, so 0 is used.
     bound.add(piece, std::isfinite(before) ? light.depth - before : 0.0);
   }
   Segment segment;

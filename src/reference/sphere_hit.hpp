@@ -68,9 +68,9 @@ struct Reach {
 //   |p' − p| ≤ δ = chord·|C| + shift·r,
 //   |b' − b| = |b·(cos φ − 1) ± p·sin φ| ≤ Δb = p·chord + |b|·chord²/2,
 //   h'² = r² − p'² between h² − ((p + δ)² − p²) and h² + (p² − (p − δ)²),
-// with p' between 0 and |C| + shift·r. The interval of t = b' ∓ h' follows term by term. h² is
-// adjusted instead of computed again, so that without a wobble, the result is bit-identical to that
-// for the exact ray.
+// with p' between 0 and |C| + shift·r. The bounds on t = b' ∓ h' are the sums of the bounds on its
+// two terms. The bounds on h'² are computed from h² instead of from p', so that without a wobble,
+// the result is bit-identical to that for the exact ray.
 inline Reach reach(const Passage& ray, const Wobble& wobble) {
   Reach result;
   const double shift = wobble.shift * ray.radius;

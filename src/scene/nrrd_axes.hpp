@@ -12,8 +12,9 @@
 
 namespace triptych::scene::nrrd {
 
-// If there are four axes, the index of the axis that is not spatial and holds the components.
-// Fields with one word per axis also have a word for this axis.
+// The index of the axis that holds the components of a voxel. It is set only if the file has four
+// axes. This axis is not spatial, so the volume does not have it, but header fields with one word
+// per axis also have a word for this axis.
 using LeftOut = std::optional<std::size_t>;
 
 // Sets the sizes and, for four axes, the layout of the components. All functions in this file throw

@@ -47,9 +47,9 @@ struct ParticleScene {
   }
 };
 
-// Returns the camera that the level (value) `spec` of the factor (setting) `camera` describes for
-// these particles (camera_at() with their bounding_box()), with `near` as required by
-// ParticleScene.
+// Returns the camera that `spec`, a level (value) of the factor (setting) `camera`, describes for
+// these particles. It is the camera that camera_at() returns for their bounding_box(), except that
+// `near` is chosen as ParticleScene requires.
 [[nodiscard]] Camera particle_camera(std::string_view spec, const ParticleSet& set,
                                      double fov_y_deg);
 
