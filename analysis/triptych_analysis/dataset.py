@@ -153,7 +153,7 @@ def _cost(suite, records):
 def _aside(records, notes, more, emulated):
     """Drops records that are not observations. Adds a note for each reason, with the number of dropped records."""
     outcome = records["outcome"].astype(str)
-    reasons = [(outcome != "measured", outcome + " on " + records["device"].astype(str)),
+    reasons = [(outcome != "measured", "with the outcome '" + outcome + "' on " + records["device"].astype(str)),
                (records["injected"].notna(), "with an injected fault"),
                # A record with copied frames is not an independent observation: r between it and its original would always be 1.
                (records["same_as"].notna(), "with frames copied from an equivalent configuration"),
@@ -182,7 +182,7 @@ def _latest(records, notes):
             continue
         for name in names:
             short = f"{device}@{hashlib.sha256(name.encode()).hexdigest()[:8]}"
-            notes.append(f"{short} is {name}")
+            notes.append(f"{short} stands for the device with the key and processor {name}")
             level[of_device.index[of_device == name]] = short
     records = records.assign(level=level, place=records["run"] + " in " + records["store"])
     records = records.sort_values(["level", "configuration", "started_at", "run"], kind="stable")

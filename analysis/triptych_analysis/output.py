@@ -27,13 +27,13 @@ def summary(of):
     lines += [f"  {each}" for each in data.notes]
     if len(data.duplicates):
         first = data.duplicates.iloc[0]
-        lines.append(f"  {len(data.duplicates)} earlier measurements of the same configuration and device are not used, for example: "
-                     f"{first.configuration} on {first.device}, {first.taken} is used instead of {first.dropped}")
+        lines.append(f"  {len(data.duplicates)} earlier measurements of the same configuration and device are not used; "
+                     f"for example, for {first.configuration} on {first.device}, {first.taken} is used instead of {first.dropped}")
     for each in of.table("distributions").itertuples():
-        lines.append(f"  {each.of} ({each.clock}, {each.samples} samples): log-normal D = {each.ks_d:.3f}, "
-                     f"p = {each.ks_p:.2g}, Lilliefors p = {each.lilliefors_p:.3g}")
+        lines.append(f"  {each.of} ({each.clock}, {each.samples} samples) compared with a log-normal distribution: "
+                     f"D = {each.ks_d:.3f}, p = {each.ks_p:.2g}, Lilliefors p = {each.lilliefors_p:.3g}")
     for each in of.table("correlation_boxes").itertuples():
-        lines.append(f"  r between levels of {each.factor}: mean {each.mean:.3f}, {each.minimum:.3f} to "
+        lines.append(f"  Pearson's r between two levels of {each.factor}: mean {each.mean:.3f}, {each.minimum:.3f} to "
                      f"{each.maximum:.3f} ({each.cells} pairs of {each.levels} levels, {each.samples} samples)")
     for each in of.table("predictions").itertuples():
         if each.data in ("all", "every held-out observation"):
@@ -46,8 +46,10 @@ def summary(of):
             lines.append(f"  {each.path} compared with all views: D = {each.d:.3f}, p = {each.p:.2g} ({each.samples} of "
                          f"{each.all_samples} samples); {each.rejected} of {each.subsets} random samples are rejected")
     for each in of.table("stacks").itertuples():
-        lines.append(f"  r between sizes of {each.name}: mean {each.mean:.3f}, minimum {each.minimum:.3f} ({each.levels} sizes)")
+        lines.append(f"  Pearson's r between two sizes of {each.name}: mean {each.mean:.3f}, minimum {each.minimum:.3f} "
+                     f"({each.levels} sizes)")
     for each in of.table("effects").head(3).itertuples():
-        ratio = f"; {each.largest_ratio:.3g} times as much with {each.expensive} as with {each.cheap}" if each.pairs else ""
-        lines.append(f"  influence of {each.factor}: {each.share:.2f} of the variance of the logarithm{ratio}")
+        ratio = (f"; the value with {each.expensive} is {each.largest_ratio:.3g} times the value with {each.cheap}"
+                 if each.pairs else "")
+        lines.append(f"  influence of {each.factor}: {each.share:.2f} of the variance of the value's logarithm{ratio}")
     return lines + [f"  not computed: {what}: {why}" for what, why in of.left_out]

@@ -85,7 +85,8 @@ def run(arguments):
     times = dataset.datasets(tables.read(arguments.source, arguments.plan))[0]
     table = compare(observations(times))
     if table.empty:
-        raise tables.InputError(f"{', '.join(arguments.source)}: no scene of {arguments.plan} was drawn both with and without rays")
+        raise tables.InputError(f"{', '.join(arguments.source)}: no scene of {arguments.plan} was drawn both by a "
+                                "technique that traces rays and by another technique")
     os.makedirs(arguments.out, exist_ok=True)
     table.to_csv(os.path.join(arguments.out, "rays.csv"), index=False, lineterminator="\n")
     drawing.save(draw(table), os.path.join(arguments.out, "rays.svg"))

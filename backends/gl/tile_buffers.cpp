@@ -107,7 +107,7 @@ std::optional<std::string> TileBuffers::unsupported(const Api& gl,
                                             static_cast<std::int64_t>(scene.particles->count()));
   if (static_cast<std::int64_t>(word) * tiles * crowd > most) {
     return fmt::format(
-        "{} spheres in front of {} tiles may need a storage block of {} bytes, but "
+        "{} spheres that all overlap {} tiles may need a storage block of {} bytes, but "
         "GL_MAX_SHADER_STORAGE_BLOCK_SIZE is {}",
         crowd, tiles, static_cast<std::int64_t>(word) * tiles * crowd, most);
   }

@@ -170,7 +170,7 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
   }
   if (volume->options.sampler == Sampler::packed) {
     return "sampler=packed requires texel buffers, which OpenCL C lacks; use sampler=manual, which "
-           "reads voxels in pairs";
+           "in OpenCL reads two neighbouring voxels at once";
   }
   if (volume->options.sampler == Sampler::hardware) {
     if (auto defect = image_defect(*volume->scene.grid)) return defect;

@@ -96,9 +96,10 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
   const std::uint64_t bytes = entries * sizeof(cl_uint);
   const auto most = session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>();
   if (bytes > most) {
-    throw core::NotSupported(
-        fmt::format("{} bin entries need {} bytes, but CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}", entries,
-                    bytes, most));
+    throw core::NotSupported(fmt::format(
+        "{} bin entries (one for each image tile that a particle overlaps) need {} bytes, "
+        "but CL_DEVICE_MAX_MEM_ALLOC_SIZE is {}",
+        entries, bytes, most));
   }
   pass.entries = make_buffer(entries);
   return pass;

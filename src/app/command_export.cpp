@@ -127,8 +127,9 @@ void add_export_command(Commands& commands) {
                      "file (default: all plans)");
   command.add_flag("--errors", arguments.errors,
                    "Also write errors.csv, which contains four error metrics for each image, "
-                   "relative to its reference image and to its limit image; reference and limit "
-                   "images that are not in the store are rendered first");
+                   "relative to its reference image and to its limit image (the exact ray "
+                   "integral); reference and limit images that are not in the store are rendered "
+                   "first");
   command.add_flag("--json", arguments.json, "Print the number of rows in each table as JSON");
   add_example(command, "triptych export results.sqlite --out tables");
 }

@@ -372,16 +372,18 @@ void add_gate_commands(Commands& commands) {
                      "matches this glob (repeatable)");
   command.add_option(
       "--without-device", arguments.without_devices,
-      "Do not report devices that match this glob as missing on this machine, and ignore failed "
-      "device enumeration for APIs that match it (repeatable; see docs/gate.md)");
+      "Do not report that a device is missing on this machine if the device matches this glob; "
+      "also ignore failed device enumeration for APIs that match the glob (repeatable; see "
+      "docs/gate.md)");
   add_without_data_option(command, arguments.without_data);
   command.add_flag("--times", arguments.times,
                    "Let frame times affect the verdict (only for dedicated benchmarking machines)");
   CLI::Option* base =
       command.add_option("--base", arguments.base,
-                         "PROGRAM or NAME=VALUE,…: do not use baselines; compare each device with "
-                         "itself, measured by another triptych build (PROGRAM) or with another "
-                         "driver (selected by these environment variables)");
+                         "PROGRAM or NAME=VALUE,…: do not use baselines; instead, measure each "
+                         "device a second time with another triptych build (PROGRAM) or with "
+                         "another driver (selected by these environment variables), and compare "
+                         "the two measurements");
   command.add_option("--out", arguments.out,
                      "Write report.html, gate.log, summary.md, benchmark.json and one JUnit XML "
                      "file per plan to this folder");

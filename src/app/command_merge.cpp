@@ -145,12 +145,11 @@ void add_merge_command(Commands& commands) {
   add_example(command, "triptych merge shard-*.sqlite --out all.sqlite");
   CLI::Option* out =
       command.add_option("--out", arguments.out, "Store to write; it must not exist yet");
-  CLI::Option* check =
-      command
-          .add_flag(
-              "--check", arguments.check,
-              "Do not merge; list the incomplete stores, and exit with code 2 if there are any")
-          ->excludes(out);
+  CLI::Option* check = command
+                           .add_flag("--check", arguments.check,
+                                     "Do not merge; list the stores that lack records of their "
+                                     "shard, and exit with code 2 if there are any")
+                           ->excludes(out);
   command
       .add_option("--plan", arguments.plans,
                   "With --check: also list stores that contain no run of this plan (repeatable)")

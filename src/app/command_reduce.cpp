@@ -181,7 +181,7 @@ core::ExitCode publish(const Search& search, report::BugReport report, const std
 
 core::ExitCode reduce_frame(const Search& search, const reduction::Failure& first) {
   const auto on_step = [](const reduction::Step& step) {
-    say("{:>4} frames: {} {} → {}\n", step.frame, step.factor, step.from, step.to);
+    say("{:>4} frames drawn: {} {} → {}\n", step.frame, step.factor, step.from, step.to);
   };
   const measure::Configuration& start = search.frame.plan.configurations.front();
   const reduction::Reduction reduction =
@@ -291,8 +291,8 @@ core::ExitCode reduce_sequence(const Search& search, const Beginning& beginning)
     return true;
   };
   const auto on_shorter = [&](std::size_t length) {
-    say("{:>4} frames: fails after {} of {} configurations\n", report.frames, length,
-        beginning.size());
+    say("{:>4} frames drawn: the frame fails after {} of {} configurations\n", report.frames,
+        length, beginning.size());
   };
   const auto sequence = reduction::shortest_sequence(
       beginning.size(), static_cast<std::size_t>(search.arguments.frames.value_or(most_frames)),

@@ -229,7 +229,7 @@ void add_render_command(Commands& commands) {
   command.add_option(
       "--error", arguments.error,
       "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max: choose the "
-      "fastest levels of step, quadrature, ert, adapt and skip for which the error "
+      "fastest levels of the factors step, quadrature, ert, adapt and skip for which the error "
       "relative to the scene's limit image (the exact ray integral) is at most E");
   add_limit_option(command, arguments.limit_s, "the frame");
   command.add_flag("--in-process", arguments.in_process,

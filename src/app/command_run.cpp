@@ -128,9 +128,9 @@ void add_run_commands(Commands& commands) {
       .add_option(
           "--error", measuring.error,
           "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max: measure only "
-          "levels of step, quadrature, ert, adapt and skip for which the error relative to "
-          "the scene's limit image (the exact ray integral) is at most E, and report the fastest "
-          "levels")
+          "levels of the factors step, quadrature, ert, adapt and skip for which the error "
+          "relative to the scene's limit image (the exact ray integral) is at most E, and report "
+          "the fastest levels")
       ->excludes("--untimed");
 
   // All devices add their measurements to one run, because `resume` is set. `test-start` has

@@ -64,11 +64,11 @@ void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
     spec.layout.big_endian = part == "big";
   } else if (part.starts_with(skip)) {
     const auto bytes = parse_number<std::int64_t>(part.substr(skip.size()));
-    if (!bytes || *bytes < 0) reject_spec(data, "skip must be a whole number, 0 or more");
+    if (!bytes || *bytes < 0) reject_spec(data, "'skip' must be a whole number, 0 or more");
     spec.skip = *bytes;
   } else if (part.starts_with(components)) {
     const auto count = parse_number<std::uint64_t>(part.substr(components.size()));
-    if (!count || *count < 1) reject_spec(data, "components must be a whole number, 1 or more");
+    if (!count || *count < 1) reject_spec(data, "'components' must be a whole number, 1 or more");
     spec.layout.components = *count;
   } else if (const auto spacing = three_numbers<double>(part)) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -93,7 +93,7 @@ std::optional<RawSpec> parse_raw_spec(std::string_view data) {
   spec.file = data.substr(0, length - 1);
   spec.size = *three_numbers<int>(parts[at]);
   if (std::ranges::any_of(spec.size, [](int n) { return n < 1; })) {
-    reject_spec(data, "a size is less than 1");
+    reject_spec(data, "each size must be at least 1");
   }
   if (at + 1 == parts.size()) reject_spec(data, "the type is missing");
   const auto type = std::ranges::find(type_names, lower_case(parts[at + 1]),

@@ -40,8 +40,9 @@ const std::vector<Factor>& particle_factors() {
       choice("ray", {"vertex", "pixel"}, "pixel", Decides::how_it_is_made,
              "the shader stage that computes the rays"),
       choice("conservative_depth", {"off", "on"}, "off", Decides::how_it_is_made,
-             "whether the shader declares conservative depth (depth_less), because each surface "
-             "point lies behind its sprite; hidden fragments can then be rejected early"),
+             "whether the shader declares conservative depth (depth_less), which is correct "
+             "because each surface point lies behind its sprite; hidden fragments can then be "
+             "rejected early"),
       choice("corners", {"4", "5", "6", "7", "8", "16", "32"}, "8", Decides::how_it_is_made,
              "the number of corners of each polygon that polygon_tess draws"),
       choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,

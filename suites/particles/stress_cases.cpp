@@ -25,10 +25,10 @@ const std::vector<Entry>& entries() {
       {{34, "far", "the eye is 10^3 to 2*10^5 radii from the sphere, whose silhouette is half as high as "
         "the image",
         "the silhouette of a sphere with radius r at distance d is accurate to within 8u times the "
-        "image's side plus 5u*r (u = 2^-24), because no term of the cross product is larger than the "
-        "extent of the image at the sphere's distance (the usual discriminant would have an error of "
-        "u*d^2, which exceeds r^2 beyond 4,096 radii). The depth has an error of up to 24u(d + r), "
-        "which is 0.3 radii in the last variant",
+        "image's side plus 5u*r (u = 2^-24), because the distance of a ray from the centre is computed "
+        "with a cross product, whose rounding error in pixels does not depend on d (the usual "
+        "discriminant would have an error of u*d^2, which exceeds r^2 beyond 4,096 radii). The depth has "
+        "an error of up to 24u(d + r), which is 0.3 radii in the last variant",
         {"1e3", "1e4", "1e5", "2e5"}}, stress_far},
       {{35, "giant", "small spheres touch a sphere with 10,000 times their radius",
         "each sphere is within its own error bounds; the giant's larger bounds apply only to the "
@@ -77,11 +77,11 @@ const std::vector<Entry>& entries() {
        stress_interpenetrating},
       {{46, "depth_range", "seven spheres, each ten times as far away as the one that overlaps it",
         "depths are ordered correctly over a range of 10^6, because reversed depth in floats has "
-        "the same relative precision everywhere, up to 2^24 times the scene's size", {}},
+        "the same relative precision at all distances up to 2^24 times the scene's size", {}},
        stress_depth_range},
       {{47, "pile", "all particles cover the centre of one pixel, and the nearest particle is stored last",
         "the nearest particle is visible, and the frame ends within the time limit, because atomics "
-        "or depth tests on one pixel take at most linear time",
+        "or depth tests on one pixel take time at most proportional to the number of particles",
         {"200000", "10000000"}}, stress_pile},
       {{48, "count", "there are no particles, one particle, or about as many as fill a work group",
         "all particles are visible; without particles the image is the background",
@@ -104,7 +104,7 @@ const std::vector<Entry>& entries() {
         "centres are transformed to camera space with twice the precision of a float, so their error "
         "is 10^-8 pixel here",
         {"0.001", "179"}}, stress_field_of_view},
-      {{54, "asymmetric", "every flip changes the scene",
+      {{54, "asymmetric", "the scene has no symmetry, so every flip would change its image",
         "the image has the same orientation with every API", {}}, stress_asymmetric},
   };
   return all;

@@ -41,7 +41,8 @@ std::vector<StressCase> cases_of_geometry() {
        "chord",
        "rays clip an edge or a corner of the box, so their chord lengths tend to 0",
        "opacity tends to 0 with the chord length s, because the opacity of a sample of length s, "
-       "1 − (1 − α)^s, is computed without cancellation; a ray of length 0 takes no sample",
+       "1 − (1 − α)^s for an opacity α per unit of length, is computed without cancellation; a ray "
+       "of length 0 takes no sample",
        {"edge", "corner"},
        stress_chord},
       {6,
@@ -54,8 +55,9 @@ std::vector<StressCase> cases_of_geometry() {
        stress_octant},
       {7,
        "far",
-       "the eye is 10³ to 10⁷ voxels away, with a matching focal length; this also covers "
-       "world-space offsets, which would only move the eye because volumes begin at the origin",
+       "the eye is 10³ to 10⁷ voxels away, and the focal length grows with the distance; a large "
+       "offset in world space needs no case of its own, because every volume begins at the origin, "
+       "so that an offset could only move the eye",
        "the image is the same as from nearby, because rays begin on a plane in front of the box "
        "whose position is computed in double precision, so the distance causes no round-off",
        {"1e3", "1e4", "1e5", "1e6", "1e7"},
@@ -76,8 +78,8 @@ std::vector<StressCase> cases_of_size() {
        "spacing",
        "voxels have aspect ratios of 1:1:8 and 1:1:1000",
        "the image is within an error bound that measures lengths in units of the smallest spacing, "
-       "because along the axis with this spacing, a rounding error displaces a sample by the most "
-       "voxels",
+       "because a rounding error of a given length spans the most voxels along the axis with this "
+       "spacing",
        {"8", "1000"},
        stress_spacing},
       {10,
@@ -130,30 +132,32 @@ std::vector<StressCase> cases_of_voxels() {
        "nan",
        "some voxels are NaN: one voxel, a block, every second voxel, or one voxel in a shaded "
        "scene",
-       "the image is bit-identical to the image with 0 instead of NaN (where the transfer function "
-       "is transparent), because NaN is replaced when voxels are prepared and never reaches a "
-       "device",
+       "the image is bit-identical to the image of a volume with 0 instead of NaN (the transfer "
+       "function is transparent at 0), because NaN is replaced when voxels are prepared and never "
+       "reaches a device",
        {"zero_one", "nan_one", "zero_block", "nan_block", "zero_mesh", "nan_mesh", "zero_shaded",
         "nan_shaded"},
        stress_nan},
       {17,
        "infinite",
        "some voxels are ±∞",
-       "the image is bit-identical to the image with the ends of the range instead of ±∞",
+       "the image is bit-identical to the image of a volume with the ends of the value range "
+       "instead of ±∞",
        {"upper", "plus", "lower", "minus"},
        stress_infinite},
       {18,
        "denormal",
        "voxels, opacities, colours or transmittances are denormal",
-       "denormal data become 0 before they reach a device; denormals that are computed along a ray "
-       "may be kept or flushed to 0, which changes no channel by more than 2⁻¹²⁶; the frame takes "
-       "at most 1.2 times as long (tests/contract/stress_test.cpp)",
+       "denormal data become 0 before they reach a device (tests/contract/stress_test.cpp checks "
+       "this); denormals that are computed along a ray may be kept or flushed to 0, which changes "
+       "no channel by more than 2⁻¹²⁶",
        {"voxels", "opacity", "colour", "transmittance"},
        stress_denormal},
       {19,
        "flat",
-       "in two variants, the value range of the data (floats or bytes) is empty; in the other two, "
-       "the field is constant (without or with shading)",
+       "all voxels have the same value; in two variants (floats or bytes), both ends of the value "
+       "range are equal to this value, so the range is empty; in the other two (without or with "
+       "shading), the range is not empty",
        "an empty range maps everything to 0; where the gradient is 0, the cosine between the "
        "gradient and the ray is 0 as well, because its divisor has a lower limit",
        {"range_f32", "range_u8", "plain", "shaded"},
@@ -212,8 +216,8 @@ std::vector<StressCase> cases_of_transfer() {
        stress_end_spike},
       {27,
        "slope",
-       "opacity is linear along rays, with slopes down to ±1e-7 and 0",
-       "pre-integrated steps are computed without cancellation as the slope vanishes",
+       "opacity changes linearly along rays, with slopes as small as ±1e-7, and with slope 0",
+       "pre-integrated steps are computed without cancellation, even if the slope is nearly 0",
        {"0.03", "1e-4", "1e-7", "0", "-1e-7", "-0.03"},
        stress_slope},
       {28,
@@ -227,8 +231,8 @@ std::vector<StressCase> cases_of_transfer() {
       {29,
        "transparent",
        "the transfer function has no opacity at all",
-       "the image is exactly the background; skipping by leaps takes no sample, and walking "
-       "through bricks takes at most one sample per ray",
+       "the image is exactly the background; skip=distance takes no sample, and skip=bricks takes "
+       "at most one sample per ray",
        {},
        stress_transparent},
       {30,
@@ -273,7 +277,7 @@ std::vector<StressCase> cases_of_frame() {
        "field_of_view",
        "the field of view is 0.001° or 179°",
        "the image is within its bound, because the error of a direction does not depend on the "
-       "field of view: a direction is always a sum of three products",
+       "field of view: every ray direction is computed as a sum of three products",
        {"narrowest", "widest"},
        stress_field_of_view},
       {54,

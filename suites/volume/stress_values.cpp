@@ -78,9 +78,9 @@ StressScene stress_nan(std::string_view variant) {
                                         : with_block(value, 1);
   scene.shaded = kind == "shaded";
   if (missing) {
-    scene.expectations = {
-        same_bits_as("stress:nan:zero_" + std::string(kind),
-                     "an image that is bit-identical to the image with 0 instead of NaN")};
+    scene.expectations = {same_bits_as(
+        "stress:nan:zero_" + std::string(kind),
+        "an image that is bit-identical to the image of a volume with 0 instead of NaN")};
   }
   return scene;
 }
@@ -93,7 +93,8 @@ StressScene stress_infinite(std::string_view variant) {
   StressScene scene = with_block(plus ? infinite : -infinite, 3);
   scene.expectations = {same_bits_as(
       plus ? "stress:infinite:upper" : "stress:infinite:lower",
-      "an image that is bit-identical to the image with this end of the range instead of ∞")};
+      "an image that is bit-identical to the image of a volume with this end of the value range "
+      "instead of ∞")};
   return scene;
 }
 

@@ -53,10 +53,11 @@ class Observations(unittest.TestCase):
                      {"median_wall_ns": np.nan}, {"technique": "speed_of_light"}, {"counted_by": "valgrind"}, {})
         self.assertEqual(len(data), 1)
         self.assertEqual(data.notes, [
-            "1 records of a technique that makes no image are not used", "1 records skipped on a are not used",
+            "1 records of a technique that makes no image are not used",
             "1 records with an injected fault are not used",
             "1 records with frames copied from an equivalent configuration are not used",
             "1 records with instructions counted by an emulator, which distorts times, are not used",
+            "1 records with the outcome 'skipped' on a are not used",
             "1 records without a time on a are not used"])
 
     def test_what_the_device_chose_is_no_factor(self):

@@ -55,7 +55,7 @@ TEST(Faults, AKilledRunIsResumed) {
   EXPECT_EQ(resumed.code, 0) << resumed.output;
   EXPECT_NE(resumed.output.find("3 measured, 0 skipped, 0 failed"), std::string::npos)
       << resumed.output;
-  EXPECT_NE(resumed.output.find("1 of them were already in the store"), std::string::npos)
+  EXPECT_NE(resumed.output.find("1 of these results were already in the store"), std::string::npos)
       << resumed.output;
 }
 
@@ -70,7 +70,8 @@ TEST(Faults, AResumedRunReportsAllItsRecords) {
   EXPECT_EQ(finished.code, 0) << finished.output;
   EXPECT_NE(finished.output.find(": 2 measured, 0 skipped, 0 failed"), std::string::npos)
       << finished.output;
-  EXPECT_NE(finished.output.find("2 of them were already in the store\n"), std::string::npos)
+  EXPECT_NE(finished.output.find("2 of these results were already in the store\n"),
+            std::string::npos)
       << finished.output;
 }
 

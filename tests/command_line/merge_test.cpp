@@ -59,7 +59,7 @@ TEST_F(MergeCommand, ResultIsJudgedAsOneRun) {
   EXPECT_EQ(verdict_on("m.sqlite"), verdict_on("whole.sqlite"));
   EXPECT_EQ(run("report --store m.sqlite --out r.html --baselines b").code, 0);
   EXPECT_THAT(run("run p.yaml --device 'null:*' --resume --store m.sqlite").output,
-              HasSubstr("16 of them were already in the store"));
+              HasSubstr("16 of these results were already in the store"));
 }
 
 TEST_F(MergeCommand, AMissingShardIsReported) {

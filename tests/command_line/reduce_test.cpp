@@ -144,7 +144,7 @@ TEST_F(ReduceAfter, TheShortestSequenceIsFoundAndReproduced) {
   EXPECT_EQ(std::ranges::count(list, '\n'), 3) << list;
   EXPECT_LT(list.find("step=0.25,"), list.find("step=0.4,"));
   EXPECT_LT(list.find("step=0.4,"), list.find("step=0.5,"));
-  EXPECT_THAT(program_.read("r/README.md"), HasSubstr("## The configurations before it"));
+  EXPECT_THAT(program_.read("r/README.md"), HasSubstr("## The configurations before the frame"));
   const Result again = program_.run(last_command(result.output), script_);
   EXPECT_THAT(again.output, HasSubstr("SIGABRT"));
 }

@@ -37,9 +37,9 @@ TEST_F(Resume, AnotherPlanWithTheSameNameIsRejected) {
   program.write("one/p.yaml", std::string(tiny_plan) + "step: [0.5, 0.7]\n");
   const Result longer = run("one/p.yaml --resume");
   EXPECT_THAT(longer.output, HasSubstr("2 measured, 0 skipped, 0 failed"));
-  EXPECT_GT(longer.output.find("1 of them were already in the store"),
+  EXPECT_GT(longer.output.find("1 of these results were already in the store"),
             longer.output.find("2 measured"));
-  EXPECT_THAT(longer.output, HasSubstr("1 of them were already in the store\n"));
+  EXPECT_THAT(longer.output, HasSubstr("1 of these results were already in the store\n"));
   EXPECT_EQ(run("one/p.yaml --resume --set step=0.9").code, 3) << "the plan has changed";
 }
 

@@ -116,13 +116,15 @@ record::Checks checks_of(const std::vector<PlacedText>& names) {
   }
   if (checks.contains(record::Check::cost) && checks.contains(record::Check::timing)) {
     throw core::InputError(names.front().place,
-                           "'checks': cost and timing cannot be combined, because instructions are "
-                           "counted in an emulator; write two separate plans");
+                           "'checks': 'cost' and 'timing' cannot be combined, because instructions "
+                           "are counted in an emulator, which distorts times; write two separate "
+                           "plans");
   }
   if (checks.contains(record::Check::code) && checks.size() > 1) {
     throw core::InputError(names.front().place,
-                           "'checks': code cannot be combined with other checks, because it only "
-                           "compiles and draws nothing; write two separate plans");
+                           "'checks': 'code' cannot be combined with other checks, because a plan "
+                           "with this check compiles code but draws nothing; write two separate "
+                           "plans");
   }
   return checks;
 }

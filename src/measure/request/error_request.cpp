@@ -98,18 +98,20 @@ class Search {
       const Found found = longest_step(candidate, limit->image);
       candidate["step"] = text_of_step(found.step);
       const bool keeps = found.error <= step_error_;
-      tell_(fmt::format("{}: quadrature={} {} step={} (error {:.2g}, {})", name, quadrature,
-                        keeps ? "meets the step-size error limit with"
-                              : "exceeds the step-size error limit even with",
-                        candidate.at("step"), found.error, name_of(request_.metric)));
+      tell_(
+          fmt::format("{}: with quadrature={}, the error caused by the step size is {} "
+                      "step={} (error {:.2g}, {})",
+                      name, quadrature, keeps ? "small enough at" : "too large even at",
+                      candidate.at("step"), found.error, name_of(request_.metric)));
       if (keeps) add_candidates(candidate, result.plan);
       if (!least || found.error < least->error) least = found;
     }
     if (result.plan.configurations.size() > before) return;
-    result.out_of_reach.push_back(
-        fmt::format("{}: no step size meets the step-size error limit of {:.3g}, a share of the "
-                    "requested error {}; the smallest error is {:.3g}, at viewport={}",
-                    name, step_error_, text_of(request_), least->error, least->viewport));
+    result.out_of_reach.push_back(fmt::format(
+        "{}: the error caused by the step size may be at most {:.3g}, which is a share of "
+        "the requested error {}, but it is larger with every step size; the smallest "
+        "error is {:.3g}, at viewport={}",
+        name, step_error_, text_of(request_), least->error, least->viewport));
   }
 
  private:

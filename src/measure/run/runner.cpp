@@ -275,12 +275,12 @@ std::string describe(const RunResult& result, const std::string& plan, const std
       plan, result.run, store, result.measured, result.skipped, result.failed, result.wall_ns / 1e9,
       result.devices_ns > 0 ? 100 * result.overhead_ns / result.devices_ns : 0.0);
   if (result.there_before > 0) {
-    text += fmt::format("{} of them were already in the store\n", result.there_before);
+    text += fmt::format("{} of these results were already in the store\n", result.there_before);
   }
   if (result.taken_over > 0) {
     text += fmt::format(
-        "{} of them reused the frames of an equivalent configuration; use --measure-every to "
-        "measure them as well\n",
+        "{} of these results reuse the frames of an equivalent configuration; to measure every "
+        "configuration, use --measure-every\n",
         result.taken_over);
   }
   return text;

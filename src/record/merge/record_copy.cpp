@@ -91,7 +91,7 @@ void DataSeen::saw(const std::string& name, std::string_view hash,
       {.file = file.string()},
       fmt::format("contains results for different input data under the same name: {} has the "
                   "content hash {} here, but the content hash in {} is {}; copy the same files to "
-                  "all machines, and measure the shards from one machine again",
+                  "all machines, and measure again on the machines whose files were different",
                   name, hash, known->second.file.string(), known->second.hash));
 }
 

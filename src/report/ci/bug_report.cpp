@@ -39,7 +39,7 @@ constexpr std::array files{
     File{"frame.json", "camera, scene, transfer function and every factor"},
     File{"image.png",
          "the device's image (`image.exr`: the same image with linear, premultiplied floats)"},
-    File{"sequence.txt", "the configurations to draw, for `--caselist`"},
+    File{"sequence.txt", "the list of configurations to draw, for the option `--caselist`"},
     File{"truth.png",
          "the reference image, rendered in double precision (`truth.exr`: the same image with "
          "floats)"},
@@ -66,9 +66,8 @@ std::string list_of_files(const BugReport& report) {
 
 std::string sequence(const BugReport& report) {
   std::string text = fmt::format(
-      "\n## The configurations before it\n\nIf the frame is drawn alone, it does not fail. It "
-      "fails "
-      "if the same process has first drawn these configurations of {}:\n\n",
+      "\n## The configurations before the frame\n\nIf the frame is drawn alone, it does not fail. "
+      "It fails if the same process has first drawn these configurations of {}:\n\n",
       markdown_escaped(report.plan));
   for (const std::string& name : report.before) {
     text += fmt::format("1. {}\n", markdown_escaped(name));
@@ -89,8 +88,8 @@ std::string_view end_of_search(const BugReport& report) {
   return report.complete
              ? "If any of these configurations is left out, the frame no longer fails in this "
                "way.\n"
-             : "The search reached the maximum number of frames, so fewer configurations may also "
-               "make the frame fail.\n";
+             : "The search stopped after drawing the maximum number of frames, so a shorter list "
+               "of configurations may also make the frame fail.\n";
 }
 
 }  // namespace

@@ -105,7 +105,8 @@ std::string markdown(std::span<const judge::GateResult> results) {
     text +=
         fmt::format("{} {}", &result == results.data() ? ":" : ",", markdown_escaped(result.plan));
   }
-  text += fmt::format("{}\n\n{}\n", all.part ? " (only part of the plans)" : "", rows(all));
+  text +=
+      fmt::format("{}\n\n{}\n", all.part ? " (only part of the plans was judged)" : "", rows(all));
   for (const std::string& each : all.circumstances)
     text += "- **" + markdown_escaped(each) + "**\n";
   if (!all.circumstances.empty()) text += '\n';

@@ -67,7 +67,7 @@ Columns<RecordSource> what_it_was() {
       {{"cause", "text", "",
         "the reason why the configuration was not measured; see docs/store.md"},
        [](const RecordSource& s) { return std::string(name_of(s.record.reason.cause)); }},
-      {{"reason", "text", "", "the cause as a sentence"},
+      {{"reason", "text", "", "a sentence that explains the column cause"},
        [](const RecordSource& s) {
          return s.record.reason == record::Reason{} ? "" : words::text_of(s.record.reason);
        }},

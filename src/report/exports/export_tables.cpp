@@ -101,7 +101,8 @@ Columns<ValueSource> cost_columns() {
       {{"of", "text", "", "what was counted: frame, or prepare (data, pipelines and upload)"},
        [](const ValueSource& s) { return std::string(s.of); }},
       {{"part", "text", "",
-        "a group of instructions (device_code, driver, libc or program), allocations, or misses"},
+        "kind of event: instructions of one group (device_code, driver, libc or program), "
+        "allocations, or misses"},
        [](const ValueSource& s) { return s.name; }},
       {{"unit", "text", "", "unit of the count"},
        [](const ValueSource& s) { return cost_unit(s.name); }},
@@ -182,11 +183,13 @@ class Tables {
         statistics_(folder, "statistics", "one pipeline statistic per row",
                     value_columns("number of events in one frame, counted by the driver")),
         cost_(folder, "cost", "one part of a record's cost per row", cost_columns()),
-        code_(folder, "code", "one statistic of one executable per row", code_columns()),
+        code_(folder, "code", "one compiler statistic of one shader stage or kernel per row",
+              code_columns()),
         energy_(folder, "energy", "one energy meter of a record per row", energy_columns()),
         errors_of_(request.errors) {
     if (errors_of_) {
-      errors_.emplace(folder, "errors", "one error of one record's image per row", error_columns());
+      errors_.emplace(folder, "errors", "one error metric of one record's image per row",
+                      error_columns());
     }
   }
 

@@ -45,8 +45,9 @@ class Scatter {
     for (const auto& point : scatter_.points) {
       largest = std::max(largest, std::abs(point.deviation));
     }
-    Figure figure("Deviations from the line", {.title = scatter_.across, .logarithmic = true},
-                  {.title = "deviation from the line",
+    Figure figure("Deviations from the fitted line",
+                  {.title = scatter_.across, .logarithmic = true},
+                  {.title = "deviation from the fitted line",
                    .percent = true,
                    .low = -1.1 * largest,
                    .high = 1.1 * largest},
@@ -102,7 +103,7 @@ class Scatter {
       figure.legend(techniques_[i], {.colour = colour_of(i)});
     }
     if (std::ranges::any_of(scatter_.points, [](const auto& each) { return !each.flag.empty(); })) {
-      figure.legend("off the line", {.colour = "ink", .mark = Mark::cross});
+      figure.legend("off the fitted line", {.colour = "ink", .mark = Mark::cross});
     }
   }
 

@@ -97,7 +97,8 @@ void append_standing(TableRow& row, const AccuracyScene& scene) {
 Html summary_table(const std::vector<AccuracyScene>& scenes) {
   Rows rows{{"scene", "device", "order of convergence", "smallest error",
              "cost to reach RMSE 1/255", "cost to reach RMSE 1/1024", "cost to reach RMSE 1e-4",
-             "hypervolume", "slowdown relative to the best", "on the front", "dominated"}};
+             "hypervolume", "slowdown relative to the best device", "configurations on the front",
+             "dominated"}};
   for (const AccuracyScene& scene : scenes) {
     const std::size_t best = accuracy::most_accurate(scene.cases);
     TableRow row{accuracy_title(scenes, scene), scene.device,
@@ -244,8 +245,9 @@ Html accuracy_section(const PlanData& plan) {
           "1/1024 and 1e-4; the cost of reaching such an error is interpolated between two "
           "neighbours on a line. The hypervolume is the area, in natural logarithms, between the "
           "front and the point with a time of one second and the error of an empty image. The "
-          "slowdown is the factor by which the device with the largest hypervolume could become "
-          "slower before this device matches it. The slowdown is based on the times of one run and "
+          "slowdown is the factor by which every time of the device with the largest hypervolume "
+          "would have to grow until this hypervolume is only as large as that of the device in the "
+          "row. The slowdown is based on the times of one run and "
           "does not affect the verdict.</p>") +
       summary_table(scenes);
   text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);

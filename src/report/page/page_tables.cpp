@@ -29,7 +29,7 @@ Html calibration_text(const record::Device& device) {
     }
   }
   if (device.statistics_calibration.empty()) return markup("not calibrated");
-  return markup("<div>{} counted exactly</div>", exact) + text;
+  return markup("<div>statistics counted exactly: {}</div>", exact) + text;
 }
 
 Html clock_text(const std::vector<record::ClockTrust>& clocks) {
@@ -179,7 +179,7 @@ Html counts_section(const PlanData& plan) {
           [](const record::Record& r) -> const record::Counts& { return r.memory; });
   section("Energy per frame in microjoules, by meter; it includes all other work on the machine",
           [](const record::Record& r) -> const record::Counts& { return r.energy; });
-  section("Triptych’s counters, from a build of the device code that is never timed",
+  section("Triptych’s counters, from a variant of the device code that is never timed",
           [](const record::Record& r) -> const record::Counts& { return r.counters; });
   section(
       "Pipeline statistics as reported by the drivers; an empty cell means that the driver does "

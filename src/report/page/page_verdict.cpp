@@ -165,7 +165,7 @@ Html card(const Overview& all, std::span<const PlanData> plans) {
       "{}<p>Triptych · {} {}{}{}</p>{}</header>\n",
       css_class(all.code), heading(all), static_cast<int>(all.code), lead(all), contents(all),
       circumstances_of(all), all.devices, all.devices == 1 ? "device" : "devices",
-      all.part ? " · only part of the plans" : "", names, tested(plans));
+      all.part ? " · only part of the plans was judged" : "", names, tested(plans));
 }
 
 // Returns the verdict of a row, with a link to its first cause.
@@ -334,7 +334,8 @@ Html words_section(const Overview& all) {
                                   : row.check == judge::Check::stress      ? "docs/validate.md"
                                                                            : "docs/gate.md";
     rows.push_back({fmt::format("check {}", name),
-                    fmt::format("the check in the row {} above", row.kind), page});
+                    fmt::format("the check whose result is in the row “{}” above", row.kind),
+                    page});
   }
   return folded("Meaning of the terms", table(rows));
 }

@@ -60,7 +60,7 @@ std::string line_of(const Compared& compared, const ComparisonCommand& command) 
     line += milliseconds_of(compared) +
             fmt::format("{}  {} measurement blocks", ratio_of(compared.shift), compared.blocks);
     if (compared.process_runs > 0) {
-      line += fmt::format(" and {} fresh process runs", compared.process_runs);
+      line += fmt::format(" and {} repetitions in new processes", compared.process_runs);
     }
     line += fmt::format(", {} clock", name_of(compared.clock));
   }

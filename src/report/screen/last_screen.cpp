@@ -92,7 +92,7 @@ class Screen {
   void head(const Overview& all, double seconds) {
     const std::string left =
         fmt::format("Triptych   {} {} · {}{}", all.devices, all.devices == 1 ? "device" : "devices",
-                    time_text(seconds), all.part ? " · only part of the plans" : "");
+                    time_text(seconds), all.part ? " · only part of the plans was judged" : "");
     const std::string right =
         fmt::format("{} ({})", words::word_of(all.code), static_cast<int>(all.code));
     const std::size_t used = width_of(left) + width_of(right);
@@ -130,7 +130,8 @@ class Screen {
       for (const std::string& line : lines) add(line);
     }
     if (shown < all.circumstances.size()) {
-      add(fmt::format("  ! {} more notes are on the page", all.circumstances.size() - shown));
+      add(fmt::format("  ! {} more notes are in the HTML report (--out)",
+                      all.circumstances.size() - shown));
     }
     if (shown > 0) add("");
   }
@@ -164,7 +165,7 @@ class Screen {
       const std::size_t more = all.open.size() - shown;
       add(fmt::format("  {} more {}: {}", more, more == 1 ? "cause" : "causes",
                       files.empty() ? "use --out FOLDER to write them to files"
-                                    : "on the page and in the files below"));
+                                    : "in the HTML report and in the other files below"));
     }
   }
 
@@ -178,7 +179,8 @@ class Screen {
     const std::string command = command_of(first, *cause.result);
     // A command is never shortened, because that would turn it into a different command.
     if (width_of(command) > longest_command) {
-      lines.emplace_back("    (the command is on the page, because it is too long for a terminal)");
+      lines.emplace_back(
+          "    (the command is too long for a terminal; the HTML report contains it)");
     } else if (!command.empty()) {
       if (cause.group.configurations > 1 && !first.configuration.empty()) {
         append_wrapped(lines,

@@ -119,10 +119,10 @@ std::string quiet_line(std::int64_t first, std::int64_t last, std::size_t taken,
       first == last ? std::to_string(first) : fmt::format("{}–{}", first, last);
   return fmt::format(
       "{:>7} {}", which,
-      taken == count ? "without opacity"
-      : taken == 0
-          ? "not taken by the device, which does not affect the image"
-          : fmt::format("without opacity; the device took {} of these {} samples", taken, count));
+      taken == count ? "transparent"
+      : taken == 0   ? "not taken by the device, which does not affect the image"
+                     : fmt::format("transparent; the device evaluated only {} of these {} samples",
+                                   taken, count));
 }
 
 // Returns the end of the sequence of quiet rows that begins at `begin`.
@@ -175,10 +175,11 @@ std::vector<std::string> colours_of(const PixelInImage& pixel) {
               ? fmt::format("error {:.3g}, within the bound of {:.3g}", error, pixel.bound)
               : fmt::format("error {:.3g}, beyond the bound of {:.3g}", error, pixel.bound))};
   if (pixel.recorded) {
-    lines.push_back(colour_line("recorded", *pixel.recorded,
-                                *pixel.recorded == pixel.image
-                                    ? "the build that records samples gives the same colour"
-                                    : "the build that records samples gives a different colour"));
+    lines.push_back(
+        colour_line("recorded", *pixel.recorded,
+                    *pixel.recorded == pixel.image
+                        ? "the device code that records samples computes the same colour"
+                        : "the device code that records samples computes a different colour"));
   }
   lines.push_back(colour_line("reference", pixel.reference, ""));
   return lines;

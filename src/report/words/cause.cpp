@@ -120,7 +120,7 @@ std::vector<std::string> next_steps(const Overview& all, std::string_view store_
     first = fmt::format("next: to accept an intended change: triptych accept {}{} --reason TEXT",
                         fmt::join(plans, " "), store_option);
   } else if (drawn) {
-    first = "next: for a bug report, use the command above with reduce instead of render";
+    first = "next: for a bug report, replace `render` by `reduce` in the command above";
   }
   return {first, "      to find the commit: gate --bisect; to excuse a known bug: waivers.json"};
 }

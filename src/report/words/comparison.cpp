@@ -260,12 +260,13 @@ std::string text_of(const TimeReason& reason) {
       return fmt::format("the image of {} is wrong, so its time is meaningless", side);
     case TimeCause::no_fresh_process_runs:
       return fmt::format(
-          "{} in the first process run, but this is not confirmed, because no fresh process runs "
-          "could be measured",
+          "{} in the first process, but this is not confirmed, because the measurement could not "
+          "be repeated in new processes",
           suspected);
     case TimeCause::not_confirmed:
       return fmt::format(
-          "{} ({}) in the first process run, but {:.0f} fresh process runs did not confirm this",
+          "{} ({}) in the first process, but {:.0f} repetitions in new processes did not confirm "
+          "this",
           suspected, percent(number("ratio")), number("process_runs"));
     case TimeCause::undecided:
       return fmt::format("undecided after {:.0f} measurement blocks{}", number("blocks"),
@@ -308,7 +309,8 @@ std::string stage_of(const comparison::ComparisonProgress& progress) {
     case comparison::ComparisonStage::more_blocks:
       return "additional measurement blocks";
     case comparison::ComparisonStage::fresh_process_runs:
-      return fmt::format("fresh process run {} of {}", progress.process_run, progress.process_runs);
+      return fmt::format("repetition {} of {} in a new process", progress.process_run,
+                         progress.process_runs);
   }
   return {};
 }
@@ -358,7 +360,7 @@ std::string sentence(const comparison::SideBySide& table) {
   const auto its = std::ranges::count_if(table.rows, [&](const comparison::SideBySide::Row& row) {
     return row.cells.contains(most->first);
   });
-  std::string text = fmt::format("{} is best in {} of the {} techniques measured on it",
+  std::string text = fmt::format("{} has the lowest cost in {} of the {} techniques measured on it",
                                  most->first, most->second, its);
   for (const std::string& device : table.devices) {
     std::vector<double> ratios;
@@ -369,7 +371,8 @@ std::string sentence(const comparison::SideBySide& table) {
     }
     if (ratios.empty()) continue;
     text += fmt::format(
-        "; {} needs {:.2f} to {:.2f} times as much per frame in the techniques measured on both",
+        "; the cost on {} is {:.2f} to {:.2f} times as high in the techniques measured on both "
+        "devices",
         device, std::ranges::min(ratios), std::ranges::max(ratios));
   }
   return text;

@@ -40,8 +40,9 @@ namespace triptych::report::words {
 // changed; 64 s".
 [[nodiscard]] std::string headline(const comparison::ComparisonResult& result);
 
-// Summarizes a table of two or more devices: "gl:x is best in 5 of the 8 techniques measured on it;
-// vulkan:y needs 0.98 to 1.3 times as much per frame in the techniques measured on both".
+// Summarizes a table of two or more devices: "gl:x has the lowest cost in 5 of the 8 techniques
+// measured on it; the cost on vulkan:y is 0.98 to 1.30 times as high in the techniques measured on
+// both devices".
 [[nodiscard]] std::string sentence(const comparison::SideBySide& table);
 
 // States that a frame cannot be reduced, because it fails in a different way when it is drawn

@@ -208,7 +208,7 @@ std::string residual_moved(const Observation& what) {
 
 std::string off_the_line(const Observation& what) {
   std::string text = fmt::format(
-      "{} ± {:.2g} % instructions compared with the prediction from {}, false "
+      "{} ± {:.2g} % instructions compared with the prediction from the cost of {}, false "
       "discovery rate {:.2g}",
       percent(what.number("ratio")), 100 * std::expm1(what.number("standard_error")),
       what.fact("other"), what.number("q"));

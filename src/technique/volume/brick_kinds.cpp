@@ -183,19 +183,22 @@ std::optional<std::string> adapt_reason(std::string_view technique, const scene:
                                         const RaycastOptions& options) {
   if (!(options.adapt > 0)) return std::nullopt;
   if (!technique::technique(technique).picture) {
-    return fmt::format("{} does not support adapt, because it never merges samples", technique);
+    return fmt::format(
+        "the technique {} does not support the factor adapt, because this technique never merges "
+        "samples",
+        technique);
   }
   if (scene.quadrature != scene::Quadrature::midpoint) {
-    return "adapt requires quadrature=midpoint, the only quadrature that takes one sample in the "
-           "middle of each step";
+    return "the factor adapt requires quadrature=midpoint, the only quadrature that takes one "
+           "sample in the middle of each step";
   }
   if (options.skip == Skip::none) {
-    return "adapt requires skip=bricks, because it merges samples in bricks and skip=none has "
-           "no bricks";
+    return "the factor adapt requires skip=bricks, because samples are merged within bricks, and "
+           "skip=none uses no bricks";
   }
   if (options.skip == Skip::distance) {
-    return "adapt requires skip=bricks, because skip=distance leaps across several bricks with "
-           "different values";
+    return "the factor adapt requires skip=bricks, because skip=distance leaps across several "
+           "bricks with different values";
   }
   return std::nullopt;
 }

@@ -163,8 +163,8 @@ std::optional<std::string> raycast_reason(std::string_view technique,
   const bool only_fetches = !technique::technique(technique).picture;
   if (only_fetches && !midpoint) {
     return fmt::format(
-        "{} requires quadrature=midpoint; its time is not a lower bound for quadrature={}, which "
-        "fetches and looks up different data",
+        "{} requires quadrature=midpoint; with quadrature={}, other techniques fetch and look up "
+        "different data, so the time of this technique is not a lower bound for their times",
         technique, quadrature);
   }
   if (scene.quadrature == scene::Quadrature::cells) {

@@ -56,8 +56,10 @@ TEST(SideBySide, UsesTimesIfNothingWasCountedAndReportsOmissions) {
   ASSERT_TRUE(table);
   EXPECT_EQ(table->unit, "ns");
   EXPECT_THAT(report::screen_of(*table), HasSubstr("–"));
-  EXPECT_THAT(report::words::sentence(*table),
-              HasSubstr("gl:x is best in 2 of the 2 techniques measured on it; gl:y needs 2.00"));
+  EXPECT_THAT(
+      report::words::sentence(*table),
+      HasSubstr("gl:x has the lowest cost in 2 of the 2 techniques measured on it; the cost on "
+                "gl:y is 2.00"));
   EXPECT_THAT(report::screen_of(*table), HasSubstr("\nbest  a 10 ms  a 20 ms  b 20 ms  \n"));
 }
 

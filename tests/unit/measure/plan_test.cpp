@@ -322,7 +322,7 @@ TEST_F(PlanTest, InvalidAndMutuallyExclusiveChecks) {
   EXPECT_EQ(refusal("suite: fake\nchecks: [image, image]\n"),
             at(2, 17) + "'checks': 'image' is given twice");
   EXPECT_THAT(refusal("suite: fake\nchecks: [timing, cost]\n"),
-              testing::HasSubstr("cost and timing cannot be combined"));
+              testing::HasSubstr("'cost' and 'timing' cannot be combined"));
 }
 
 TEST(PlanName, IsWhatRunsAreStoredUnder) {

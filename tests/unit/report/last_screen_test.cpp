@@ -178,7 +178,8 @@ TEST(LastScreen, RepeatsTheEnvironment) {
 // Accepting a baseline cannot correct an image, so the screen proposes it only for changed values.
 TEST(LastScreen, SuggestsTheNextStep) {
   const std::string wrong = last_screen(std::vector{failing()}, 3, {});
-  EXPECT_THAT(wrong, HasSubstr("next: for a bug report, use the command above with reduce"));
+  EXPECT_THAT(wrong,
+              HasSubstr("next: for a bug report, replace `render` by `reduce` in the command"));
   EXPECT_THAT(wrong, Not(HasSubstr("triptych accept")));
   GateResult counted{.plan = "volume/quick", .run = "r", .findings = {}};
   add(counted, Check::counters, regression, "gl:x", "step=1", changed("samples"));
