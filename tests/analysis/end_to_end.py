@@ -27,11 +27,11 @@ VOLUME = {"suite": "volume", "technique": ["raycast"],
 PARTICLES = {"suite": "particles", "technique": ["quad_ray", "quad_screen", "tiles"], "culling": ["none"],
              "data": ["generate:uniform:10", "generate:uniform:20", "generate:droplets:20"],
              "camera": CAMERAS + ["random:1"], "viewport": [8]}
-# A smaller plan for the notebook, because the notebook draws every figure twice.
+# Smaller plans for the test of the notebook (paper.ipynb), because the notebook draws every figure twice.
 FEW = [{"suite": "volume", "technique": ["raycast"], "data": ["generate:gaussian_blob:8"], "camera": CAMERAS, "viewport": [8, 12]},
        {"suite": "particles", "technique": ["quad_ray", "tiles"], "culling": ["none"], "data": ["generate:uniform:10", "generate:uniform:20"],
         "camera": CAMERAS[:4], "viewport": [8]}]
-REFERENCE = ["--reference", "data=generate:uniform:10"]  # only one suite has this factor
+REFERENCE = ["--reference", "data=generate:uniform:10"]  # only the particle suite has this level
 FIGURES = {"volume": ["figure_03_distribution", "figure_04_correlation_boxes", "figure_05_correlation_device",
                       "figure_06_speed_up_device", "figure_07_speed_up_camera_path", "figure_08_mean_data_camera_path",
                       "camera_paths", "correlation_camera_distance", "correlation_camera_rotation", "prediction",
@@ -67,7 +67,8 @@ class EndToEnd(unittest.TestCase):
 
     @classmethod
     def raw_times(cls):
-        """Returns {suite: [({factor: level}, ms)]}: the medians of the raw samples by the clock that the analysis uses."""
+        """Returns {suite: [({factor: level}, ms)]}, where ms is the median of the raw samples of one record, measured by the
+        clock that the analysis uses."""
         samples = {}
         for row in read(cls.folder, "tables", "samples.csv"):
             samples.setdefault((row["record"], row["clock"]), []).append(float(row["time_ns"]))
@@ -182,8 +183,9 @@ class EndToEnd(unittest.TestCase):
         self.assertAlmostEqual(float(row["d"]), d, places=9)
 
     def test_forest_against_lines(self):
-        """Times are products of pixels, voxels and samples, which the random forest must be able to predict. The numbers
-        of training and held-out observations must add up."""
+        """A scripted time grows with the product of the numbers of pixels, voxels and samples per voxel, so the random forest
+        must be able to predict it. Every observation must be used either for training or for testing, so the numbers of
+        training and held-out observations must add up to the number of all observations."""
         rows = {each["data"]: each for each in read(self.out, "volume", "time", "predictions.csv")}
         whole = rows["every held-out observation"]
         self.assertEqual(int(whole["trained"]) + int(float(whole["held_out"])), len(self.times["volume"]))
@@ -200,7 +202,8 @@ class EndToEnd(unittest.TestCase):
 
     def test_the_store_itself_says_the_same(self):
         again = os.path.join(self.folder, "again")
-        # Figures are not drawn, because they depend only on the tables, and because publish.py compares them byte by byte.
+        # The figures are not drawn again, because they depend only on the tables, and because the test publish.py already
+        # compares figures byte by byte.
         with unittest.mock.patch.object(output.figures, "every", return_value=[]):
             self.assertEqual(analyze.main([os.path.join(self.folder, "s.sqlite"), "--out", again, *REFERENCE]), 0)
         files = sorted(glob.glob(os.path.join(self.out, "*", "time", "*.csv")))
@@ -210,7 +213,8 @@ class EndToEnd(unittest.TestCase):
                 self.assertEqual(one.read(), other.read(), file)
 
     def test_frames_taken_over_are_no_observation(self):
-        """A uniform box has no empty bricks, so skip=none and skip=distance do the same work."""
+        """A uniform box has no empty bricks, so skip=none and skip=distance do the same work. The run therefore draws only one
+        of them and copies its frames to the record of the other, which must not count as a second observation."""
         with open(os.path.join(self.folder, "copies.yaml"), "w", encoding="utf-8") as file:
             json.dump({"suite": "volume", "technique": ["raycast"], "data": ["generate:uniform_box:8"], "viewport": [8],
                        "skip": ["none", "distance"]}, file)

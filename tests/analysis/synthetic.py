@@ -1,4 +1,4 @@
-"""Data sets with a known structure."""
+"""Creates data sets with a known structure for the tests in this folder."""
 
 import itertools
 

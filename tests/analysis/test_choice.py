@@ -42,7 +42,8 @@ class Techniques(unittest.TestCase):
         self.assertEqual(len(choice.technique_for(None, "gl:*", 2000)), 0)
 
     def test_a_technique_without_a_count_is_not_compared(self):
-        """Otherwise, the means of the techniques would cover different configurations."""
+        """A view counts only if it was measured with every technique and every number of spheres, because the means of the
+        techniques would otherwise cover different configurations. On gl:x, tiles lacks one of the two views."""
         data = spheres(without=lambda at: at["technique"] == "tiles" and at["camera"] == "orbit_y:1/2"
                        and at["data"] == "generate:uniform:16000" and at["device"] == "gl:x")
         counts = choice.by_count(data)
@@ -63,8 +64,8 @@ class Techniques(unittest.TestCase):
 
 class Effects(unittest.TestCase):
     def test_shares_of_a_product(self):
-        """The logarithm of the value is i·ln 2 + j·ln 3 with i = 0, 1 and j = 0, 1, 2. The variances of the two terms are
-        (ln 2)²/4 and (ln 3)²·2/3."""
+        """For device i = 0, 1 and step j = 0, 1, 2, the logarithm of the value is i·ln 2 + j·ln 3. The variances of the two
+        terms are (ln 2)²/4 and (ln 3)²·2/3."""
         data = synthetic.factorial({"device": ["0", "1"], "step": ["0", "1", "2"], "data": list("abcd")},
                                    lambda at: 2.0 ** int(at["device"]) * 3.0 ** int(at["step"]))
         effects = choice.effects(data, ["data", "device", "step"]).set_index("factor")

@@ -14,7 +14,8 @@ class KolmogorovSmirnov(unittest.TestCase):
         a, b = [1, 2, 3, 4], [2.5, 3.5, 5, 6]
         d, p = views.ks_two_samples(a, b)
         self.assertAlmostEqual(d, 0.5)  # at 2, the distribution functions are 2/4 and 0/4
-        # p is the share of all orders of the eight values in which the distance is at least as large as the observed distance.
+        # d is the distance between the distribution functions of a and b. p is the probability that d is at least 0.5 if all ways
+        # to split the eight values into two groups of four are equally likely.
         as_far = 0
         orders = list(itertools.combinations(range(8), 4))
         for first in orders:
@@ -186,8 +187,8 @@ class Views(unittest.TestCase):
         self.assertLess(orbit.p, 1e-6)
         self.assertEqual(orbit.subsets, 100)
         self.assertLess(orbit.rejected, 10)
-        # Of the 15 pairs that can be chosen from the six views, one consists of the two views on the orbit, which increases
-        # the mean distance.
+        # A random set of two whole views differs more from all values than a random set of 60 single values does. In the extreme
+        # case, it consists of the two views on the orbit, whose values are four times as large.
         self.assertGreater(tests.loc[("orbit_y", "views"), "d_mean"], orbit.d_mean)
 
     def test_one_path_is_compared_with_nothing(self):

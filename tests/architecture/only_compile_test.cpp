@@ -1,5 +1,6 @@
-// Tests that compile-only devices execute nothing. In each backend, all calls that submit, draw or
-// read back are in a single place, which rejects them for such devices.
+// Tests that compile-only devices (drivers that compile code for GPUs that this machine lacks)
+// execute nothing. In each backend, all calls that submit, draw or read back are in a single place,
+// which rejects them for such devices.
 
 #include <gtest/gtest.h>
 

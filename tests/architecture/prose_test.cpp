@@ -7,8 +7,8 @@
 namespace triptych::architecture {
 namespace {
 
-// Matches code that searches a message, or compares a message with a string. Only the folder
-// `words` creates messages, and `core` quotes them.
+// Matches code that searches a message, or compares a message with a string literal. The test does
+// not search src/core, because the code there only quotes messages.
 const std::regex reads_prose(
     R"(\b(detail|last_words|message|what\(\)|text_of\([^()]*\)|headline\([^()]*\)|advice\([^()]*\)))"
     R"(\s*(\.\s*(find|rfind|starts_with|ends_with|contains|substr|compare)\b|[=!]=\s*"[^"]))");

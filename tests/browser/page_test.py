@@ -236,7 +236,8 @@ class Comparison(PageTest):
     def names_of(self, page):
         return page.value("[...document.querySelector('#compare select').options].map(each => each.value)")
 
-    # Returns the visible parts of two images whose border is at `place`, without the border itself.
+    # Selects two images in the comparison and moves the border between them to `place` percent. Returns a screenshot of the view
+    # without its leftmost and rightmost four pixels, so that the border is not visible if `place` is 0 or 100.
     def shown(self, page, left, right, place):
         page.value(f"""(() => {{
             const [a, b] = document.querySelectorAll('#compare select');

@@ -25,8 +25,8 @@ ert: [0]
 camera: ['orbit_y:1/9']
 viewport: [24]
 """
-# Plans from which small scenes are taken: the stress plans of both suites and the accuracy plan for volumes. One data
-# file is missing on purpose, because TRIPTYCH_DATA is empty.
+# Plans for a page with unusual scenes: the stress plans of both suites, and the accuracy plan for volumes. Only 1/120 of their
+# configurations are drawn. One data file is missing on purpose, because TRIPTYCH_DATA is empty.
 HOSTILE = ["volume/stress", "particles/stress", "volume/accuracy"]
 PLANS = {
     "volume/quick": ["technique=raycast,raycast_fragment", "data=generate:marschner_lobb:32", "viewport=64",
@@ -35,7 +35,8 @@ PLANS = {
                         "camera=orbit_y:1/8"],
     "cost.yaml": [],
 }
-# Counting instructions takes seconds per device, so only two devices are counted, and only one of them twice.
+# Counting instructions takes seconds per device. Therefore the passing gate counts them on only two devices, and the failing gate
+# on only one.
 COUNTING = {"pass": ["gl:llvmpipe-egl", "vulkan:lavapipe"], "fail": ["vulkan:lavapipe"]}
 FAULTS = {
     "volume/quick": ["half_voxel_shift@vulkan:*", "lost_counter@opencl:*"],

@@ -14,7 +14,7 @@ STAND_INS = {
     "sbatch": 'echo "sbatch $*" >>"$CALLS"; n=$(grep -c ^sbatch "$CALLS"); [ "$n" != "${REFUSED:-}" ] || exit 1; echo "$n"',
     "scancel": 'echo "scancel $*" >>"$CALLS"',
     "squeue": "",
-    "triptych": '[ "$1" = list ] && seq "${2#plan}"',  # planN has N configurations; no store is complete
+    "triptych": '[ "$1" = list ] && seq "${2#plan}"',  # lists N configurations for planN; all other commands fail
 }
 
 
@@ -46,8 +46,8 @@ class Submit(unittest.TestCase):
     def test_a_job_gets_200_configurations_of_all_plans(self):
         self.assertEqual(self.shards_of("plan340"), 2)
         self.assertEqual(self.shards_of("plan340", "plan340"), 4)
-        # Halves of these plans have up to 51 and 150 configurations. Because both plans have an odd number of
-        # configurations, one job might get the additional configuration of both plans.
+        # Two jobs are not enough: one of them might get 51 of the 101 and 150 of the 299 configurations, which is one more than
+        # the 200 that are allowed.
         self.assertEqual(self.shards_of("plan101", "plan299"), 3)
         # There are at most as many jobs as the largest plan has configurations, because any additional jobs would be empty.
         self.assertEqual(self.shards_of(*["plan2"] * 500), 2)

@@ -1,5 +1,5 @@
-// Tests the checks for CTest when a data file is missing that existed when the baselines were
-// accepted.
+// Tests CTest checks, gates and pages if a data file is missing that existed when the baselines
+// were accepted.
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,7 @@ TEST_F(AbsentData, LeavesNoLimitImageToJudgeBy) {
   EXPECT_EQ(judged.code, 2) << judged.output;
   const auto unknown = findings_of(judged.output.substr(judged.output.find('{')), "unknown_error");
   ASSERT_FALSE(unknown.empty()) << judged.output;
-  // There must be one record for each measured configuration.
+  // The gate must report one finding for each measured configuration.
   EXPECT_NE(run.output.find(std::to_string(unknown.size()) + " measured, 0 skipped, 0 failed"),
             std::string::npos)
       << run.output;

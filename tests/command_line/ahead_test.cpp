@@ -1,4 +1,6 @@
-// Tests that PoCL's kernels are compiled before they are counted, by a worker without the emulator.
+// Tests that a worker without the emulator compiles PoCL's kernels in advance. The worker that
+// counts instructions under the emulator then only loads them, so the instructions of the compiler
+// are not counted.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -13,7 +13,8 @@ import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "ci/bench"
 PROGRAM = os.environ["TRIPTYCH_PROGRAM"]
-# The name of one technique is a prefix of the other's, and the levels of one configuration are a subset of another's.
+# The name of one technique is a prefix of the other's, and the levels of one configuration are a subset of another's. A pattern
+# for one of them could therefore match the other one by mistake.
 PLAN = "suite: volume\ntechnique: [raycast, raycast_fragment]\ndata: ['generate:gaussian_blob:8']\nstep: [1, 2]\nviewport: [8]\n"
 
 

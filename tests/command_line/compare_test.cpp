@@ -133,9 +133,10 @@ TEST_F(Compare, JsonContainsTheSameResult) {
       result.output.substr(result.output.find("\n{") + 1));  // skips the progress output
   EXPECT_EQ(json.at("exit_code"), 1);
   const auto& compared = json.at("configurations").at(0);
-  // The scripted times have a noise of 1 %, and a block uses the smallest time of several batches.
-  // The smallest of 30 normally distributed values is 2.04 standard deviations below the mean.
-  // Therefore the medians may differ from the scripted times by 3 %.
+  // The scripted times have a noise of 1 %. A block uses the smallest time of several batches,
+  // which is smaller than the mean. Even the smallest of 30 normally distributed values is on
+  // average only 2.04 standard deviations below the mean, so the medians must be within 3 % of the
+  // scripted times.
   EXPECT_NEAR(compared.at("a").at("median_ns").get<double>(), 5e6, 0.03 * 5e6);
   EXPECT_NEAR(compared.at("b").at("median_ns").get<double>(), 5.25e6, 0.03 * 5.25e6);
   EXPECT_LT(compared.at("b").at("lower_quartile_ns"), compared.at("b").at("median_ns"));
@@ -169,7 +170,7 @@ TEST_F(Compare, SideBySideNeedsAStoreWithTwoDevices) {
   expect_verdict(program.run("compare volume/quick"), 3, "needs either two sides");
 }
 
-// Each side is stored as its own run.
+// `compare` stores each side as its own run, so `compare --apis` must read both runs.
 TEST_F(Compare, SideBySideReadsTheStoreOfAComparison) {
   const std::string two = R"({"devices": [1, 1.7], "base_ns": 1e6})";
   const Result compared =

@@ -1,4 +1,4 @@
-// Tests the list of tests for CTest.
+// Tests the list of tests that `triptych ctest` writes for CTest.
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 """Runs every command of triptych that README.md, CONTRIBUTING.md and docs/ show in a block of code or of program output.
-The commands of a page run in its order, on a scripted device, in an empty folder. Devices and plans are replaced by small
-ones; the names of commands, options and files stay. Commands of other programs must be in ELSEWHERE, which says what
-runs them. The program is $TRIPTYCH_PROGRAM.
+The commands of a page run in the order of the page, on a scripted device, in an empty folder. Devices and plans are
+replaced by small ones; the names of commands, options and files stay. Commands of other programs must be in ELSEWHERE,
+which says what runs them. The program is $TRIPTYCH_PROGRAM.
 """
 
 import glob

@@ -15,8 +15,8 @@
 namespace triptych::command_line {
 namespace {
 
-// Returns a script for devices that draw the limit images of the scenes with these data. Images
-// converge to the limit image of their scene as the step size decreases.
+// Returns a script for devices that draw the limit images of the scenes with these data. The limit
+// image of a scene is the image to which its images converge as the step size decreases.
 std::string drawing_the_limit(const Program& program, const std::vector<std::string>& data,
                               const std::string& viewport) {
   const auto suite = volume_suite::make_suite({});
@@ -51,8 +51,9 @@ TEST(Error, IsMetByTheFastestCandidate) {
       << kept.output;
 }
 
-// The step size for a very wide image must not be determined from a row of only a few pixels,
-// because such a row reveals nothing about the image.
+// The step size is first estimated with a smaller image. If the image is very wide, the smaller
+// image must not be reduced to a row of a few pixels, because such a row reveals hardly anything
+// about the error of the image. The longest step, 4096, could then be chosen.
 TEST(Error, IsMetForAVeryWideImage) {
   const Program program;
   const Result kept = program.run(
@@ -107,7 +108,8 @@ TEST(Error, OutOfReachInOneSceneStillMeasuresTheOthers) {
 }
 
 // If the plan leaves the sampler to the device, the quadrature `cells` and the midpoint rule use
-// different samplers.
+// different samplers. They must still compete with each other as candidates for the same scene, so
+// that there is only one result.
 TEST(Error, HasOneResultWhateverSamplersTheCandidatesUse) {
   const Program program;
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.0001",

@@ -67,7 +67,8 @@ class ExtraWork : public testing::TestWithParam<const char*> {
   Program program;
 };
 
-// Vulkan and OpenGL share the source code of their shaders.
+// Vulkan and OpenGL share the source code of their shaders, so Vulkan is counted only in the
+// nightly run.
 TEST_P(ExtraWork, IsDoneByEveryTechnique) {
   if (std::string_view(GetParam()).starts_with("vulkan") && !test::everything())
     GTEST_SKIP() << "counted only if TRIPTYCH_EVERY_DEVICE is set";
@@ -78,7 +79,7 @@ TEST_P(ExtraWork, IsDoneByEveryTechnique) {
   EXPECT_GE(counted.size(), 6U);
   for (const auto& [technique, pair] : counted) {
     // `tiles` sorts particles twice and stores each entry twice, but does not repeat the passes
-    // over pixels.
+    // over pixels, so its instruction count may grow by less than a factor of 2.
     EXPECT_GT(pair.slower, (technique == "tiles" ? 1.1 : 1.8) * pair.plain) << technique;
     EXPECT_LT(pair.slower, 2.2 * pair.plain) << technique;
     EXPECT_GT(pair.plain, 0) << technique;

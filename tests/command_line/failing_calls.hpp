@@ -32,7 +32,7 @@ struct Outcome {
 namespace failing_detail {
 
 // Returns the error with which the system call is made to fail, or 0 if the call does not concern
-// files, memory or processes.
+// files, memory or processes. If several errors are plausible, `number` selects one of them.
 inline int error_of(unsigned long long call, long number) {
   switch (call) {
     case SYS_read:

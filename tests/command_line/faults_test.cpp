@@ -27,7 +27,8 @@ TEST(Faults, AHangCostsOneConfiguration) {
   EXPECT_NE(result.output.find("hung"), std::string::npos) << result.output;
 }
 
-// The plan's level "haze" is a default, so it does not appear in the name of any configuration.
+// The plan's level "haze" is a default, so it does not appear in the name of any configuration, and
+// a pattern that contains "haze" matches nothing.
 TEST(Faults, AFaultWithoutEffectIsReported) {
   const Program program;
   const Result missed = program.run(three + " --inject 'crash@*haze*'");

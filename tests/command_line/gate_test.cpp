@@ -104,7 +104,8 @@ TEST(Gate, WindowsAndMappingsDoNotCountAsChangedData) {
   EXPECT_EQ(pass.code, 0) << pass.output;
 }
 
-// The reference image in the store was drawn with the earlier contents of the file.
+// After the file was edited, the store still contains the reference image that was drawn with the
+// earlier contents. The gate must not compare with it.
 TEST(Gate, AnEditedTransferFunctionInvalidatesTheReferenceImage) {
   const Program program;
   program.write("plan",

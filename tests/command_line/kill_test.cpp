@@ -40,7 +40,8 @@ class Kill : public testing::Test {
       "data=generate:gaussian_blob:16 --set transfer_function=haze --set "
       "viewport=16";
 
-  // Returns the script of a device that draws the correct image and whose frames take this long.
+  // Returns the script of a device that draws the correct image in frames of `base_us`
+  // microseconds.
   [[nodiscard]] std::string script(int base_us = 100) const {
     return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}}})", picture.string(),
                        1000 * base_us);

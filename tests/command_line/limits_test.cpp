@@ -36,7 +36,8 @@ TEST(Memory, DataBeyondTheLimitFailOnlyTheirConfiguration) {
   EXPECT_THAT(result.output, HasSubstr("1 measured, 0 skipped, 1 failed"));
 }
 
-// The file contains 526 MiB of voxels, which are drawn in parts of 16 MiB.
+// The voxels are stored in a file of 526 MiB and drawn in parts of 16 MiB. Therefore a process
+// whose data must not exceed 391 MiB (ulimit -d 400000) can draw them.
 TEST(Memory, IsNotUsedByVoxelsInAFile) {
   if (sanitized) GTEST_SKIP() << "built with a sanitizer";
   const Program program;
@@ -117,7 +118,7 @@ TEST(FullDisk, AnAcceptThatDoesNotFitChangesNothing) {
   ASSERT_EQ(program.run(accept + "kept").code, 0);
   std::filesystem::create_directory(program.folder() / "small");
   const auto before = tree(program.folder() / "kept/volume/quick");
-  // Existing files use about 30 KiB of the disk.
+  // The existing files use about 30 KiB of the disk, so not all of the new files fit.
   for (const char* size : {"36k", "48k"}) {
     const Result result =
         program.run(accept + "small/b", "{}",

@@ -33,7 +33,7 @@ class Peers(unittest.TestCase):
             cases = peer.short_names(ours.measure())
         self.assertEqual(set(cases), {"", "step=2"})
         self.assertLess(cases["step=2"][0], cases[""][0])
-        self.assertTrue(all(error > 0 for _, error in cases.values()))  # the image does not show the same scene
+        self.assertTrue(all(error > 0 for _, error in cases.values()))  # the device draws a pattern instead of the scene
 
     def test_each_side_keeps_its_least_time(self):
         times = iter([5, 7, 3, 9])

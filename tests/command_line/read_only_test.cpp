@@ -59,7 +59,8 @@ TEST_F(ReadOnly, StoreCanBeReported) {
   EXPECT_NE(program.read("own/page.html").find("the reference image"), std::string::npos);
 }
 
-// A writable file in a read-only folder can be opened, but not changed.
+// SQLite can open a writable file in a read-only folder, but cannot change it, because it cannot
+// create a journal in the folder.
 TEST_F(ReadOnly, AReadOnlyFolderIsEnoughToJudge) {
   std::filesystem::permissions(program.folder() / "kept/s.sqlite",
                                readable | perms::owner_write | perms::others_write);

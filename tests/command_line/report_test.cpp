@@ -43,7 +43,7 @@ TEST_F(ReportTest, EveryChartIsDrawn) {
   EXPECT_THAT(page, HasSubstr("frame time, ms"));
   for (auto at = page.find("<svg class=\"figure\""); at != std::string::npos;
        at = page.find("<svg class=\"figure\"", at + 1)) {
-    // The marks are inside a nested SVG element.
+    // The marks are inside a nested SVG element, so the figure ends at the second </svg>.
     const auto marks = page.find("</svg>", at) + 1;
     const std::string figure = page.substr(at, page.find("</svg>", marks) + 6 - at);
     EXPECT_EQ(test::xml_fault(figure), "");
@@ -104,7 +104,7 @@ TEST_F(ReportTest, WritesBothFilesOrNeither) {
   EXPECT_EQ(program_.run(command + "--benchmark-json b.json").output, "page.html\nb.json\n");
 }
 
-// The file must not be limited to a single plan of the store.
+// The benchmark file must contain all plans of the store, not only one.
 TEST_F(ReportTest, BenchmarkJsonContainsEveryPlan) {
   measure(std::string("volume/quick") + small_scene);
   measure(std::string("volume/speed") + small_scene);

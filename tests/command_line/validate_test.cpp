@@ -74,7 +74,8 @@ TEST_F(Validate, AFailureThatDoesNotRepeatIsReportedAsAFlake) {
   EXPECT_THAT(program.read("known.json"), HasSubstr(R"("outcome":"flake")"));
   EXPECT_THAT(program.read("validation/gate.log"),
               HasSubstr("flake (correct when drawn again): crashed: "));
-  // The store must still contain the failed record.
+  // Although the frame was correct when it was drawn again, the store must still contain the failed
+  // record.
   const Result gate = program.run(
       "gate volume/quick --shard 1/400 --store validation/validation.sqlite --check image", script);
   EXPECT_EQ(gate.code, 1) << gate.output;

@@ -1,5 +1,6 @@
 #pragma once
-// The requirements on the keys of reference and limit images, in both suites.
+// Each reference image and each limit image is stored under a key. Tests of both suites use this
+// file to check that these keys depend on the transfer function.
 
 #include <gtest/gtest.h>
 

@@ -139,8 +139,8 @@ TEST(SwitchedAlone, ChangesOneFactor) {
   EXPECT_EQ(switched[1].to, 1U);
 }
 
-// If one level of the setting was measured with only one step size, it is compared with the best
-// case that has the same step size.
+// The level ert=0.1 was measured only with step 1. It is therefore compared with the best case that
+// has the same step, not with the most accurate case, which has step 0.5.
 TEST(SwitchedAlone, UsesTheBestCaseWithACounterpart) {
   const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 4, 1, "0.1")};
   const auto switched = switched_alone(cases);
@@ -157,7 +157,8 @@ TEST(SwitchedPicture, FindsTheCounterpartInAnotherScene) {
   for (AccuracyCase& each : others) each.factors["viewport"] = "96";
   const auto found = switched_picture(cases, others, "viewport");
   ASSERT_TRUE(found);
-  // The other scene has no case with the step of the most accurate case.
+  // The most accurate case has step 0.5, which the other scene lacks. Therefore the cases with step
+  // 1 are chosen.
   EXPECT_EQ(found->from, 1U);
   EXPECT_EQ(found->to, 0U);
   EXPECT_FALSE(switched_picture(cases, others, "step"));

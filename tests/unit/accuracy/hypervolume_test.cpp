@@ -29,8 +29,9 @@ double area_of(const std::vector<AccuracyCase>& cases, double reference_error = 
   return hypervolume(cases, pareto_front(cases), reference_error) / (decade * decade);
 }
 
-// 1 ms is three decades below one second and 1e-2 is two decades below 1, so the area is 3·2.
-// Reducing the error from 1e-2 to 1e-4 takes 10 ms and adds 2·2.
+// The area extends up to the reference point, which is a time of one second and an error of 1. A
+// time of 1 ms is three decades below one second, and an error of 1e-2 is two decades below 1, so
+// the area is 3·2. Reducing the error from 1e-2 to 1e-4 takes 10 ms and adds 2·2.
 TEST(Hypervolume, IsTheSumOfRectangles) {
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2)}), 6, 1e-12);
   EXPECT_NEAR(area_of({case_at(1e6, 1e-2), case_at(1e7, 1e-4)}), 10, 1e-12);

@@ -124,7 +124,7 @@ TEST(RayHistory, DoesNotCompareMergedSamples) {
   ray.merges = true;
   std::vector<TakenSample> taken = taken_from(ray);
   taken.erase(taken.begin() + 1, taken.begin() + 3);
-  taken[0].place[0] += 1;  // at the middle of three merged steps
+  taken[0].place[0] += 1;  // the middle of three merged steps
   taken[0].length = 6;
   const RayHistory history = compare(ray, taken);
   EXPECT_EQ(history.first, 3) << "the light after the last sample is that of another ray";

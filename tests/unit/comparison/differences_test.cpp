@@ -104,11 +104,11 @@ TEST_F(Differences, ALostCounterIsARegressionOnlyOnTheSameDriver) {
 
 TEST_F(Differences, AStatisticIsComparedAsExactlyAsItsDriversCount) {
   record_b.statistics["fragment_invocations"] = 160;
-  // The two numbers come from the same driver.
+  // Both numbers come from the same driver, so they must be equal.
   EXPECT_EQ(only().kind, DifferenceKind::regression);
   use_another_driver();
   // Both drivers count exactly, but the API does not define how many fragment invocations there
-  // are.
+  // are. A different number is therefore not a regression.
   EXPECT_EQ(only().kind, DifferenceKind::changed);
   device_a.statistics_calibration["fragment_invocations"] = {
       .worth = record::Worth::inflated, .low = 1.02, .high = 3.9};

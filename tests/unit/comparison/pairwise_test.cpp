@@ -111,8 +111,8 @@ TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
   }
 }
 
-// For 40 differences of two sizes, a manual computation of the variance gives n(n+1)(2n+1)/24 −
-// (20³−20)·2/48 = 5202.5.
+// Of the n = 40 differences, 20 have the size 1 and 20 have the size 2. These two groups of ties
+// reduce the variance of the rank sum, which is n(n+1)(2n+1)/24 − 2·(20³ − 20)/48 = 5202.5.
 TEST(SignedRank, TiesNarrowTheApproximation) {
   std::vector<double> values(20, 1.0);
   values.insert(values.end(), 20, -2.0);
@@ -306,7 +306,9 @@ TEST(Confirm, OneProcessRunHasNoScatter) {
   EXPECT_EQ(confirmed[2].verdict, PairVerdict::slower);
 }
 
-// Passes given results to the confirmation, one process run at a time.
+// Replaces measurements by given results. A process run is the lifetime of one worker process.
+// process_runs[i] contains the results of suspect i, which are passed to confirm_in_looks() one at
+// a time.
 struct ProcessRuns {
   std::vector<std::vector<double>> process_runs;
   std::vector<std::vector<std::size_t>> asked;  // the suspects that each process run measured
@@ -354,11 +356,12 @@ TEST(ConfirmInLooks, StopsAtTheLastProcessRun) {
   EXPECT_TRUE(ProcessRuns().confirm_all().empty());
 }
 
-// A process run shifts all of its blocks, so the interval from a single process run is far too
-// narrow. Therefore, a slowdown that only one process run shows must not be reported. Of 200
-// families with 24 configurations each, none is slower than tolerated. At most a share q of the
-// families may have false discoveries: for q = 0.02, more than 10 such families have a probability
-// below 0.003.
+// A process run (the lifetime of one worker process) shifts the times of all its blocks by the same
+// random amount, so the interval computed from a single process run is far too narrow. A slowdown
+// that only one process run shows must therefore not be reported. The test simulates 200 families
+// of 24 configurations, none of which is slower than tolerated. On average, at most a share q =
+// 0.02 of the families may have false discoveries, so the probability of more than 10 such families
+// is below 0.003.
 TEST(ConfirmInLooks, ProcessRunEffectsRarelyCauseFalseDiscoveries) {
   const SequentialDesign design = SequentialDesign::standard();
   const double between = 0.01;

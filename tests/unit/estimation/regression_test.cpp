@@ -69,8 +69,8 @@ TEST(LeastSquares, IsAffectedByOutliers) {
 }
 
 TEST(RobustLine, FollowsTheMainSequenceOfTheStars) {
-  // MM-estimates with the same two bisquare functions, from R's package robustbase for its data set
-  // starsCYG.
+  // The expected values are MM-estimates for the data set starsCYG, computed by R's package
+  // robustbase with the two bisquare functions that robust_line() also uses.
   const RobustLine fit = robust_line(star_temperature, star_light);
   EXPECT_NEAR(fit.line.slope, 2.253, 0.001);
   EXPECT_NEAR(fit.line.intercept, -4.969, 0.005);

@@ -192,8 +192,8 @@ TEST_F(AccuracyGateTest, ANewDeviceIsComparedWithTheWorstAcceptedError) {
   EXPECT_TRUE(with(gate("c"), Verdict::regression, Check::accuracy).empty());
 }
 
-// If the order falls to 1.95, the error of the finest step size grows by 15 %. That growth alone
-// would be within the accepted rounding error.
+// If the order of convergence falls from 2 to 1.95, the error with the smallest step size, 1/16,
+// grows by 15 %. That growth alone would be within the accepted rounding error.
 TEST_F(AccuracyGateTest, ALowerOrderIsARegression) {
   request_.truth = [this](const record::Record& record) {
     const core::Image truth = nearer_truth(record);
@@ -215,7 +215,8 @@ TEST_F(AccuracyGateTest, ALowerOrderIsARegression) {
   ASSERT_EQ(fallen.size(), 1U) << text(gate("c"));
   EXPECT_NEAR(fallen[0].number("order"), 1.95, 5e-3);
   EXPECT_NEAR(fallen[0].number("stored_order"), 2, 5e-3);
-  // The reference image is so far from the images that hardly any error comes from the step size.
+  // This reference image is so far from the images that hardly any error comes from the step size.
+  // An order of convergence can therefore not be determined.
   request_.truth = [](const record::Record& record) {
     const core::Image truth = truth_of(record.scene);
     return TruthPair{.truth = truth, .bound = truth};

@@ -124,7 +124,9 @@ TEST_F(AsBegunTest, TheReasonForAnUnmeasuredRequiredDeviceIsReported) {
   EXPECT_EQ(found[1].reason, aborted);
 }
 
-// The driver crashes during device enumeration.
+// If a driver crashes during device enumeration, the run contains nothing about its device. Here,
+// the first device is missing. The other devices show that the run comes from a kind of machine for
+// which the missing device was accepted.
 TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   accept_begun();
   const record::Beginning without{.found = {all_devices[1], all_devices[2]},
@@ -262,8 +264,8 @@ TEST_F(AsBegunTest, AConfigurationLostFromTheBaselinesIsReported) {
               HasSubstr("gives the number of configurations as 4, but counters.json contains 3"));
 }
 
-// If a later run failed before it began, the latest run in the store is an older one. The fixture's
-// runs began on 2026-02-01.
+// If a later run failed before it was added to the store, the latest run in the store is an older
+// one. The gate must then report the date of that run. The fixture's runs began on 2026-02-01.
 TEST_F(AsBegunTest, AnOldRunIsReportedWithItsDate) {
   add_begun("run");
   for (const auto& [today, began] : {std::pair{"2026-02-01", ""},

@@ -22,7 +22,8 @@ const Calibration doubled{
 class CalibrationGateTest : public JudgeTest {
  protected:
   // Returns the finding about a new version of lavapipe that has the calibration `own` and counts
-  // 49 instead of 48. Only the statistics of the OpenGL device are stored.
+  // 49 compute invocations. The only stored statistics are those of the OpenGL device, which has
+  // the calibration `stored` and counts 48.
   Finding advice(const Calibration& stored, const Calibration& own) {
     calibrations_["gl:llvmpipe-egl"] = stored;
     accept_first([](record::Record& record, core::Image&) {

@@ -88,7 +88,9 @@ TEST(Repeatability, BoundsApplyToEachPart) {
   const Repeatability bound = repeatability("opencl:pocl", "raycast", {1e7, 0});
   EXPECT_EQ(moved_by({0, 3.6e-3}, bound), 0);
   EXPECT_NEAR(moved_by({0, 3.8e-3}, bound), 3.8e-3, 1e-5);
-  // A change within the driver's jitter does not count.
+  // The first number is the change of the device code, and the second is the change of the driver.
+  // A change within the driver's jitter does not count, so only the change of the device code
+  // remains.
   EXPECT_NEAR(moved_by({1e-4, -2e-3}, bound), 1e-4, 1e-6);
   EXPECT_EQ(moved_by({0.9e-5, 0}, repeatability("vulkan:lavapipe", "tiles", {1e7, 0})), 0);
   EXPECT_NE(moved_by({0.9e-5, 0}, repeatability("vulkan:lavapipe", "raycast", {1e7, 0})), 0);

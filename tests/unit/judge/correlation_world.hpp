@@ -57,7 +57,8 @@ class CorrelationWorld {
       record->outcome = record::Outcome::measured;
       record->counted_by = "emulator";
       const double frame = std::exp(15 + 0.02 * i + scatter * normal());
-      // Each count may differ by half of the bound, so that two counts differ by at most the bound.
+      // The stored and the current count each differ from the made-up cost by at most half of the
+      // bound, so that they differ from each other by at most the bound.
       const double bound =
           repeatability(id, record->technique, {0.7 * frame, 0.3 * frame}).driver / 2.01;
       stored.configurations[record->configuration].frame =

@@ -104,7 +104,8 @@ TEST_F(CostGateTest, ASavingInTheDriverDoesNotOffsetMoreDeviceCode) {
   EXPECT_EQ(change_of(wrong[0], "driver").now, 900000);
 }
 
-// The tolerance is 5e-4 of a frame of two million instructions, plus 2,000.
+// A frame executes two million instructions. The driver's tolerance is 5e-4 of that number plus
+// 2,000, which is 3,000 instructions.
 TEST_F(CostGateTest, TheDriverMayDifferByItsTolerance) {
   EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "driver", 3000)).exit_code(), ExitCode::pass);
 }
@@ -114,8 +115,8 @@ TEST_F(CostGateTest, TheDriverMayNotDifferByMore) {
   EXPECT_EQ(change_of(wrong[0], "driver").now, 1003001);
 }
 
-// The tolerance is 16 plus 1 % of 20,000, because a buffer may begin at a different position within
-// a cache line.
+// A buffer may begin at a different position within a cache line. Therefore the 20,000 cache misses
+// have a tolerance of 16 plus 1 %, which is 216.
 TEST_F(CostGateTest, CacheMissesMayDifferByTheirTolerance) {
   EXPECT_EQ(judge(changed("gl:llvmpipe-egl", "misses", 216)).exit_code(), ExitCode::pass);
 }

@@ -90,6 +90,8 @@ TEST_F(GateTest, AnotherVersionOfADriverMayDifferByOneInTenThousand) {
 }
 
 // The driver decides where the edges of a sprite lie, but not which fragments hit the sphere.
+// Another version may therefore discard slightly more or fewer fragments, but must keep the same
+// number.
 TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   const auto fragments = [](std::uint64_t discarded, std::uint64_t kept) {
     return [=](record::Record& record, core::Image&) {
@@ -115,7 +117,8 @@ TEST_F(GateTest, AnotherVersionOfADriverMayMoveTheEdgesOfSprites) {
   EXPECT_THAT(gate("version as accepted").findings.front().accepted_on, testing::IsEmpty());
 }
 
-// Two drivers were accepted with different values, and both are correct.
+// Two drivers were accepted with different values, and both are correct. Another device may report
+// any value between them.
 TEST_F(GateTest, AnotherDeviceMustBeWithinTheAcceptedRange) {
   const auto count = [](std::uint64_t pocl, std::uint64_t mesa) {
     return [=](record::Record& record, core::Image&) {
@@ -136,7 +139,8 @@ TEST_F(GateTest, AnotherDeviceMustBeWithinTheAcceptedRange) {
   EXPECT_EQ(change.accepted, (std::map<std::string, double>{{"llvmpipe", 1e6}, {"pocl", 9e5}}));
 }
 
-// The suite computes how far rounding can change counters in a scene, but only if counters differ.
+// The suite computes by how much rounding can change the counters of a scene. The gate asks for
+// this number only if the counters differ from the accepted ones.
 TEST_F(GateTest, TheSuiteStatesHowManyCountsMayDifferOnAnotherDriver) {
   accept_first([](record::Record& record, core::Image&) {
     record.counters["samples"] = 1000;

@@ -15,9 +15,11 @@ record::Record record_of(std::uint64_t sprites, std::uint64_t fragments, double 
   return record;
 }
 
-// Open fragments are those that one correct driver may draw and another may not. The edges of 100
-// squares of 10 × 10 pixels have a total length of 4,000 pixels. With a rasterizer grid of 1/256
-// pixel, an edge may differ by 1/128 pixel between two drivers.
+// Open fragments are those that one correct driver may draw and another may not. With a rasterizer
+// grid of 1/256 pixel, an edge may differ by δ = 1/128 pixel between two drivers. The edges of 100
+// squares of 10 × 10 pixels have a total length of 4,000 pixels, so 4000·δ fragments are open on
+// average. The variance is 4·10000·δ for the 10,000 fragments of the squares, and five standard
+// deviations are added to the average.
 TEST(OpenFragments, AreThoseAlongTheEdges) {
   const record::Record record = record_of(100, 10000, 8);
   const double fluctuation = 5 * std::sqrt(4 * 10000 / 128.0);

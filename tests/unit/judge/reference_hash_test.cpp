@@ -17,16 +17,16 @@ core::Image picture(std::uint64_t seed) {
   return image;
 }
 
-// A few values change by one ulp of a float, which is about 10⁵ times as much as a different math
-// library changes them in double precision.
+// This test changes some values by one ulp of a float. That is about 10⁵ times as much as a
+// different math library changes a value in double precision.
 TEST(ReferenceHash, LastBitsDoNotChangeTheHash) {
   int same = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     const core::Image image = picture(seed);
     core::Image other = image;
     core::Random random(1000 + seed);
-    // A different math library changes about one float in a few thousand. Here, about one in a
-    // thousand changes.
+    // After rounding to floats, a different math library changes about one value in a few thousand.
+    // Here, about one value in a thousand changes.
     for (float& value : other.rgba) {
       if (random.uniform() < 1e-3) value = std::nextafter(value, 2.0F);
     }
@@ -62,8 +62,8 @@ TEST(ReferenceHash, SizesChangeTheHashAndNonFiniteNumbersAreHandled) {
   EXPECT_TRUE(is_same_reference(reference_hash(image), reference_hash(image)));
 }
 
-// The rounding grids are placed so that round numbers, as in the colours of scenes, are not near
-// the edges of a cell.
+// The hash depends on the cell of a grid into which each value falls. The grids are placed so that
+// round numbers, which are frequent in the colours of scenes, are not near the edge of a cell.
 TEST(ReferenceHash, RoundNumbersMayMoveByALastBit) {
   for (const float value : {0.0F, 0.25F, 0.5F, 1.0F, 1.0F / 4096, 1.0F / 8192}) {
     core::Image image(1, 1);

@@ -168,7 +168,8 @@ TEST_F(StressGateTest, ARefusalIsCorrectOnlyIfItIsAllowed) {
   EXPECT_EQ(with(gate("judged"), Verdict::pass, Check::stress).size(), 12U);
 }
 
-// Skipping must be bit-identical, even if the error bound would permit a difference.
+// The images with and without brick skipping must be bit-identical, even if the error bound would
+// permit a difference.
 TEST_F(StressGateTest, DifferentBitsLoseAPoint) {
   expected_ = [](const record::Record& record) {
     std::vector<record::Expectation> result;
@@ -283,7 +284,8 @@ class ExpectationTest : public JudgeTest {
     return image;
   }
 
-  // Returns the observation. Its cause is Cause::none if the expectation is met.
+  // Judges the image of the first record by this rule. Returns an observation that states why the
+  // rule is not met. If it is met, the cause of the observation is Cause::none.
   Observation judge(const record::SamePicture& rule) {
     StressRun run(store_, records_);
     const auto what = unmet({"a test", rule}, records_.front(), run, [](const record::Record&) {

@@ -22,8 +22,9 @@ TEST(AmdAssembly, TheSamplingLoopOfNavi21MatchesACountByHand) {
   const auto counts = count_amd_instructions(fixture("raycast_navi21.s"));
   ASSERT_TRUE(counts && counts->sampling_loop);
   const InstructionCounts& loop = *counts->sampling_loop;
-  // Vector instructions: v_cmpx; 8 up to the sample; 9 from the value to its table entry; 3 others;
-  // 8 to interpolate; 5 and 5 to composite; v_cmp and 2 v_cndmask to end the ray.
+  // Vector instructions: v_cmpx; 8 before the volume is sampled; 9 to find the table entry of the
+  // value; 3 others; 8 to interpolate the table; 5 and 5 to composite; v_cmp and 2 v_cndmask to end
+  // the ray.
   EXPECT_EQ(loop.vector, 1 + 8 + 9 + 3 + 8 + 5 + 5 + 3);
   // Scalar instructions: s_mov; s_and, s_or, s_andn2; s_mov; s_mov; s_and, s_andn2, s_or.
   EXPECT_EQ(loop.scalar, 1 + 3 + 1 + 1 + 3);
@@ -38,9 +39,9 @@ TEST(AmdAssembly, TheSamplingLoopOfVega10MatchesACountByHand) {
   const auto counts = count_amd_instructions(fixture("raycast_vega10.s"));
   ASSERT_TRUE(counts && counts->sampling_loop);
   const InstructionCounts& loop = *counts->sampling_loop;
-  // Vector instructions: v_cmp; 8 up to the sample; v_mov; 3 and 6 from the value to its table
-  // entry; 4 for coordinates; 3 others; 8 to interpolate; 5 and 5 to composite; v_cmp and 2
-  // v_cndmask to end the ray.
+  // Vector instructions: v_cmp; 8 before the volume is sampled; v_mov; 3 and 6 to find the table
+  // entry of the value; 4 for coordinates; 3 others; 8 to interpolate the table; 5 and 5 to
+  // composite; v_cmp and 2 v_cndmask to end the ray.
   EXPECT_EQ(loop.vector, 1 + 8 + 1 + 3 + 6 + 4 + 3 + 8 + 5 + 5 + 3);
   EXPECT_EQ(loop.scalar, 1 + 3 + 1 + 1 + 2 + 3);
   EXPECT_EQ(loop.memory, 3 + 1 + 2);

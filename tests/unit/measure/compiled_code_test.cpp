@@ -171,7 +171,8 @@ TEST(CompileOnly, AMissingDriverIsReportedWithItsPackage) {
   }
 }
 
-// Mesa 26.1 removed RADV_FORCE_FAMILY, so RADV needs the stub of the kernel interface.
+// Mesa 26.1 removed RADV_FORCE_FAMILY, the variable that selects a GPU family. Since then, RADV
+// needs a stub that imitates the kernel's interface to a GPU.
 TEST(CompileOnly, RadvUsesTheStubIfItsVariableHasBeenRemoved) {
   const test::TemporaryFolder folder;
   const std::string icd =

@@ -155,7 +155,8 @@ TEST_F(PlanTest, OverridesSelectLevelsOfThePlan) {
   }
   EXPECT_THAT(values(load(yaml, {{"step", {"8"}}}), "step"), testing::Each("8"));
   EXPECT_EQ(values(load(yaml, {{"step", {"8"}}}), "data").size(), 5U);
-  // No block contains both levels, so they replace the levels of all blocks.
+  // No block of the plan (its beginning, or an entry of `also`) contains both ert=0.5 and step=4.
+  // Therefore these levels replace the levels of all blocks.
   EXPECT_THAT(values(load(yaml, {{"ert", {"0.5"}}, {"step", {"4"}}}), "step"), testing::Each("4"));
 }
 

@@ -1,4 +1,5 @@
-// Tests the emulator, its instruction counter and the worker's part of counting together.
+// Counts the instructions of a helper program under the emulator. This tests the emulator, its
+// instruction counter, and the code of a worker that reads the counter.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -46,7 +47,9 @@ TEST_F(Counting, OneMoreInstructionIsCounted) {
   EXPECT_THAT(counted("1001"), testing::StartsWith("2004 0 1\n"));
 }
 
-// PoCL loads its kernels from files. Files in its kernel cache must count as device code.
+// PoCL loads its kernels from files, so code from files in its kernel cache must count as device
+// code. Here, the folder that contains the helper program takes the place of the kernel cache. The
+// helper's own code then counts as device code, too, so the count is not 2002.
 TEST_F(Counting, FilesOfTheKernelCacheAreDeviceCode) {
   const std::string folder = std::string(MEASURE_RUN_HELPER).substr(0, 5);
   EXPECT_THAT(counted("1000", folder), testing::Not(testing::StartsWith("2002 ")));
@@ -56,8 +59,10 @@ TEST_F(Counting, WaitsForOtherThreads) {
   EXPECT_EQ(counted("1000", "/nowhere", "count-busy"), "2002 0 1\n2002 0 1\n2002 0 1\n");
 }
 
-// The cache misses are the cache lines of the loads, plus the stack line with the return address.
-// 1,000 loads touch either 1,000 lines, which do not fit into the cache, or 125 lines, which do.
+// The addresses of the 1,000 loads are 64 or 8 bytes apart. With 64 bytes, the loads touch 1,000
+// cache lines, which do not fit into the cache, so each line is missed every time. With 8 bytes,
+// they touch 125 lines, which fit, so each line is missed only the first time. The stack line with
+// the return address adds one miss.
 TEST_F(Counting, CacheMissesAreCountedSeparately) {
   EXPECT_EQ(counted("64", "/nowhere", "count-stride"), "4002 1001\n4002 1001\n4002 1001\n");
   EXPECT_EQ(counted("8", "/nowhere", "count-stride"), "4002 126\n4002 0\n4002 0\n");

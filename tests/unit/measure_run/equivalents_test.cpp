@@ -29,7 +29,8 @@ core::Image picture(const std::vector<float>& alphas) {
 
 TEST(LeastTransmittance, FollowsFromTheVisibleBackground) {
   EXPECT_NEAR(least_transmittance(volume_over(0), picture({0.25F, 0.75F, 0.5F})), 0.25, 1e-6);
-  // The opacity is 1 − T + T·0.25 = 0.85, so the transmittance T is 0.2.
+  // The background has the opacity 0.25. If T is the transmittance of the volume in front of it,
+  // the pixel has the opacity 1 − T + T·0.25. For the opacity 0.85, T is 0.2.
   EXPECT_NEAR(least_transmittance(volume_over(0.25F), picture({0.25F, 0.85F})), 0.2, 1e-6);
 }
 

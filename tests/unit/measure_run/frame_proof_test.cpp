@@ -67,7 +67,8 @@ TEST(FrameProof, FindsALoopOfFramesThatTookNoTime) {
   EXPECT_NO_THROW(check_loop({0.02 * ms}, {1.9 * ms}, never));
 }
 
-// On a busy machine, every checked frame may be slow until the machine is free again.
+// On a busy machine, every checked frame may be slow until the machine is free again. Therefore
+// more frames are drawn before an error is reported.
 TEST(FrameProof, DrawsMoreFramesBeforeItReportsALoop) {
   int more = 0;
   EXPECT_NO_THROW(check_loop({0.3 * ms}, {6 * ms}, [&] { return ++more < 5 ? 6 * ms : 0.4 * ms; }));

@@ -209,8 +209,8 @@ TEST_F(TurnsTest, AnEnvironmentThatChangesTheWorkIsRejected) {
 }
 
 TEST(TurnDifferences, ADriftThatIsLinearOverABlockCancels) {
-  // The logarithms of the four batch times are 0, 0.1, 0.2 and 0.3, and b is slower by another
-  // 0.05.
+  // A linear drift increases the logarithms of the times of four successive batches by 0, 0.1, 0.2
+  // and 0.3. In addition, the logarithms are larger by 0.05 for the batches of b.
   const Block abba{.b_first = false,
                    .a = {.wall_ns = {1e6, 1e6 * std::exp(0.3)}, .device_ns = {}},
                    .b = {.wall_ns = {1e6 * std::exp(0.15), 1e6 * std::exp(0.25)}, .device_ns = {}}};

@@ -198,7 +198,8 @@ TEST(Protocol, BenchmarkEntriesCarrySamplesStatisticsAndCountsAsFlatKeys) {
       EXPECT_NEAR(entry.at("real_time").get<double>(), 54 * ms, 1);
     }
   }
-  // The wall times from the fifth frame on.
+  // The samples are the wall times from the fifth frame on, because the first four frames are
+  // warm-up frames. Frame n (zero-based) takes 50 + n ms.
   ASSERT_EQ(samples.size(), 8U);
   for (std::size_t i = 0; i < 8; ++i) {
     EXPECT_NEAR(samples[i], (54.0 + static_cast<double>(i)) * ms, 1);

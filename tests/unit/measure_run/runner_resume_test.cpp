@@ -185,7 +185,8 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRejectsAnotherDriver) {
   static_cast<void>(run(plan({{"technique", {"raycast"}}, {"data", {"cube"}}, {"step", {"1"}}})));
   options.resume = true;
   {
-    // If the clock were calibrated again, it would not be trusted.
+    // With this script, the device clock reports only half of the wall time. If the clock were
+    // calibrated again, it would therefore not be trusted.
     const Variable lying("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "device_over_wall": 0.5})");
     const RunResult more = run(small_plan());
     EXPECT_EQ(more.measured, 4);

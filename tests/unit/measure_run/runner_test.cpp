@@ -24,7 +24,7 @@ TEST_F(RunTest, MeasuresAndReportsEveryConfigurationOnEveryDevice) {
   EXPECT_EQ(result.measured, 8);
   EXPECT_EQ(result.skipped + result.failed, 0);
   EXPECT_EQ(told.size(), 8U);
-  // One worker serves a device for the whole run.
+  // Each device has one worker, which serves it for the whole run.
   EXPECT_EQ(started_workers().size(), 2U);
   EXPECT_GT(result.wall_ns, result.overhead_ns);
   std::set<std::pair<std::string, std::string>> cells;

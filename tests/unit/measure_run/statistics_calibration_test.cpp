@@ -32,7 +32,8 @@ MATCHER_P(Is, worth, "") {
   return arg.worth == worth;
 }
 
-// The fragments of the scene with many small sprites, as counted by Triptych.
+// The numbers that Triptych's own counters report for the scene with many small sprites: all
+// fragments, and those that are kept because they hit their sphere.
 constexpr std::uint64_t true_fragments = 2500;
 constexpr std::uint64_t kept_fragments = 2090;
 

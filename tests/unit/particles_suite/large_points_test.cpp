@@ -14,8 +14,8 @@ namespace triptych::particles_suite {
 namespace {
 
 // Returns spheres of radius 1, seen from the origin along −z in an image of 200×200 pixels with a
-// field of view of 90°. At distance z, a sphere on the axis is 200/√(z² − 1) pixels wide, with a
-// margin of 1/32 pixel.
+// field of view of 90°. At distance z, a sphere on the axis is 200/√(z² − 1) pixels wide. A margin
+// of 1/32 pixel is added to this width.
 scene::ParticleScene at_distances(const std::vector<float>& distances) {
   auto set = std::make_shared<scene::ParticleSet>();
   for (const float z : distances) set->spheres.push_back({0, 0, -z, 1});
@@ -40,7 +40,8 @@ TEST(OpenByQuads, OnlySpheresThatAreLargerThanThePoints) {
 TEST(OpenByQuads, FragmentsInTheCornersOfSquares) {
   const scene::ParticleScene round = at_distances({3});
   EXPECT_EQ(open_by_quads(round, 10, false).at("fragments"), 72 * 72 - 70 * 70);
-  // Half of the sphere is outside the image, so 72² − 70 · 35.5 fragments are open.
+  // Part of the sphere is outside the image. The quad covers up to 72² pixels, and the visible part
+  // of the silhouette is 39 pixels wide and 70 pixels high, so 72² − 39 · 70 fragments are open.
   scene::ParticleScene cut = round;
   auto set = std::make_shared<scene::ParticleSet>();
   set->spheres = {{3, 0, -3, 1}};

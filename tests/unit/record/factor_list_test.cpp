@@ -34,8 +34,9 @@ TEST(FactorList, EntriesWithoutAFactorAreIgnored) {
   EXPECT_EQ(parse_factor_list("a=1,none,,b="), (Factors{{"a", "1"}, {"b", ""}}));
 }
 
-// Tests all strings of up to six of the relevant characters. Every string must survive escaping,
-// and no two strings may have the same escaped form.
+// Tests all strings of up to six of the characters that have a meaning in a list of factors or in
+// an escape sequence. Every string must survive escaping, and no two strings may have the same
+// escaped form.
 TEST(FactorList, UnescapingInvertsEscaping) {
   std::vector<std::string> values{""};
   std::set<std::string> texts;

@@ -130,7 +130,8 @@ TEST(DeviceTest, TheKeyCoversEverythingThatAffectsTimings) {
   EXPECT_EQ(other.key(), device.key());
 }
 
-// One driver can serve many graphics cards.
+// One driver can serve many graphics cards, so the key of a device must contain the name of the
+// card.
 TEST(DeviceTest, HardwareIsIdentifiedByItsName) {
   Device device = sample_device("vulkan:nvidia");
   device.cpu_features.clear();
@@ -157,7 +158,8 @@ TEST(DeviceTest, TheStatisticsKeyCoversOnlyIdAndDriver) {
   other.cpu_features = "none";
   other.statistics_calibration.clear();
   EXPECT_EQ(other.statistics_key(), device.statistics_key());
-  // Earlier versions replaced these characters, so both driver versions had the same file name.
+  // Earlier versions replaced the parentheses, spaces and hyphens of a driver version by the same
+  // character, so both driver versions had the same file name.
   other.driver_version = "1.2 LLVM-15";
   EXPECT_NE(other.statistics_key(), device.statistics_key());
 }

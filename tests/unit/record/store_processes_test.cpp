@@ -21,8 +21,8 @@
 namespace triptych::record {
 namespace {
 
-// Time limit of the test's own connection. The connection must wait, because the late writer may
-// access the file at any time, even during a commit.
+// Time limit of the test's own connection. The connection must wait, because a second process
+// (LateWriter) may access the file at any time, even during a commit.
 constexpr int patience_ms = 10'000;
 
 using std::chrono::milliseconds;

@@ -130,7 +130,8 @@ TEST(Bound, ForCellsHoldsForADisplacedEye) {
     scene.width = scene.height = 13;  // the bound for a ray takes a millisecond to compute
     scene.step_voxels = seed % 2 == 0 ? 1.0 : 0.4;
     scene.shading.enabled = seed % 4 < 2;
-    // Each seed tests every displacement, and each displacement is tested in both directions.
+    // Each seed tests every displacement in one of two directions, which alternate. Odd seeds begin
+    // with the other direction than even seeds, so each displacement is tested in both directions.
     glm::dvec3 sign = seed % 2 == 0 ? glm::dvec3{1, 1, 1} : glm::dvec3{1, -1, -1};
     for (const double voxels : {1e-5, 1e-3, 0.02}) {
       const Comparison c = compare_displaced(scene, sign, voxels);
@@ -273,7 +274,9 @@ TEST(Bound, GrowsWithEveryTermOfTheModel) {
   }
 }
 
-// Compares both methods of bounding the corrected opacity with a search through the allowed range.
+// The function step_opacity() bounds the opacity of a step either by a fast estimate for small
+// errors, or by the opacities at both ends of the allowed range. Compares both bounds with a search
+// through this range.
 TEST(StepOpacity, EnclosesEveryAllowedValue) {
   for (const double alpha : {1e-6, 0.01, 0.5, 0.99, 1 - 1e-7, 1.0}) {
     for (const double error : {0.0, 1e-8, 1e-4, 0.03}) {

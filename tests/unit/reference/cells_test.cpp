@@ -63,9 +63,9 @@ double order_of(std::string_view data, double ridge) {
   return std::log2(coarse / rms(render_volume(scene), limit)) / 2;
 }
 
-// The field takes the value at which the table has its ridge on a surface. On rays that are tangent
-// to that surface, the error behaves like the square root of a distance, which makes the order
-// slightly lower than four.
+// Somewhere in the volume is a surface on which the field has the value of the table's ridge. On
+// rays that are tangent to that surface, the error behaves like the square root of a distance,
+// which makes the order slightly lower than four.
 TEST(CellsPicture, IsOfFourthOrder) {
   for (const char* data : {"gaussian_blob", "marschner_lobb"}) {
     EXPECT_GE(order_of(data, 255), 3.9) << data << ", which no kink meets";

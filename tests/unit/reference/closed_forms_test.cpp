@@ -88,8 +88,8 @@ TEST(ClosedForms, SegmentIsContinuousAsItsSlopeVanishes) {
     const double flat = transmittance_integral(depth, 0.0, 1.0);
     EXPECT_NEAR(flat, -std::expm1(-depth) / depth, 1e-15);
     for (const double slope : {1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-18, 1e-30, 1e-300}) {
-      // The integral is E = ∫ e^(−at − bt²/2) dt over [0, 1], so dE/db = −∫t²/2·e^(−at − bt²/2) dt,
-      // which is in [−1/6, 0] at b = 0.
+      // With the depth a and the slope b, the integral is E = ∫ e^(−at − bt²/2) dt over [0, 1], so
+      // dE/db = −∫t²/2·e^(−at − bt²/2) dt, which is in [−1/6, 0] at b = 0.
       EXPECT_NEAR(transmittance_integral(depth, slope, 1.0), flat, slope / 6 + 2e-15) << slope;
       EXPECT_NEAR(transmittance_integral(depth, -slope, 1.0), flat, slope / 6 + 2e-15) << slope;
     }

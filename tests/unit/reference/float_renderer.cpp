@@ -223,19 +223,21 @@ ErrorModel float_model(const scene::VolumeScene& scene, const FloatOptions& opti
   const glm::dvec3 spacing{grid.spacing[0], grid.spacing[1], grid.spacing[2]};
   const glm::dvec3 size{grid.size[0], grid.size[1], grid.size[2]};
   const glm::dvec3 eye = scene.camera.eye / spacing;
-  // The direction results from about 20 operations before it is multiplied by the distance, which
-  // is itself a quotient by a component of the direction. Computing a sample's position from the
-  // result adds 10 products and sums.
+  // The position of a sample is eye + t·direction. Rounding the eye causes one error. All other
+  // errors are relative to `reach`, the distance to the farthest corner: about 20 come from the
+  // direction, 20 from the distance t, which is a quotient by a component of the direction, and 10
+  // from the products and sums of the position.
   const double reach = glm::length(glm::max(glm::abs(eye), glm::abs(eye - size)));
   ErrorModel model;
   model.position_error_voxels = unit * (glm::length(eye) + 50 * reach);
-  // The value results from three interpolations of three operations each, the mapping, and the
-  // position in the table.
+  // The value results from about 14 operations: three interpolations of three operations each, and
+  // a few more for the mapping and for the position in the table.
   model.value_error = 14 * unit;
   model.filter_weight_error =
       options.weight_bits > 0 ? 3 * std::exp2(-options.weight_bits - 1) : unit;
   model.table_error = 3 * unit;
-  // log1p and expm1 have an error of two ulps each, and the two factors of the exponent add to it.
+  // The errors of log1p and expm1 are two ulps each, or 4·unit each. The remaining 4·unit allow for
+  // rounding the exponent, which is a product.
   model.opacity_error = 12 * unit;
   model.compositing_error = 4 * unit;
   model.ert = options.ert;

@@ -55,7 +55,7 @@ double steepness_at(scene::VolumeScene scene, const glm::dvec3& p, const glm::dv
 }
 
 // Bounds the round-off of a central difference, which is half the difference between two values
-// stored as floats.
+// stored as floats. `largest` is the largest magnitude of a value.
 double rounding_of(double largest) {
   return 0x1.0p-24 * largest;
 }

@@ -83,7 +83,8 @@ TEST(PreintegratedStep, IsV3WhereTheTableIsARamp) {
   }
 }
 
-// Compares a table with jumps, spikes and full opacity with many short steps of constant opacity.
+// For a table with jumps and spikes, one preintegrated step must agree with the sum of many short
+// steps of constant opacity.
 TEST(PreintegratedStep, IsTheIntegralOfASteepTable) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {

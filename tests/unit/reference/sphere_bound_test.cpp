@@ -31,8 +31,8 @@ struct Place {
   double x, y;
 };
 
-// Returns positions within `reach` pixels of the centre of pixel `i`, including positions near the
-// rim.
+// Returns positions around the centre of pixel `i`: half of them at a distance just below `reach`
+// pixels, and half of them at half of this distance.
 std::vector<Place> places_around(std::size_t i, int width, double reach) {
   const double x = static_cast<double>(i % static_cast<std::size_t>(width)) + 0.5;
   const double y = static_cast<double>(i / static_cast<std::size_t>(width)) + 0.5;
@@ -47,9 +47,10 @@ std::vector<Place> places_around(std::size_t i, int width, double reach) {
 }
 
 // Checks rays near each pixel. The renderer marks a pixel as certain if no permitted error can
-// change which sphere is visible there. For rays within the margin, a certain pixel must keep its
-// id, and any other pixel must keep its colour within the bound. For rays displaced by up to
-// `lateral_px`, depth and colour of certain pixels must stay within their bounds.
+// change which sphere is visible there. For rays within `margin_px` pixels of the pixel's centre
+// (or `lateral_px`, if that is more), a certain pixel must keep its id, and any other pixel must
+// keep its colour within the bound. For rays within `lateral_px` pixels, the depth and colour of a
+// certain pixel must stay within their bounds.
 void expect_bounded(const scene::ParticleScene& scene, const SphereErrorModel& model,
                     const std::string& what) {
   const SphereTruth truth = render_spheres(scene, model);
@@ -110,8 +111,8 @@ TEST(SphereBounds, CoverTheInsideOfASphere) {
   EXPECT_EQ(std::ranges::count(truth.certain, 1), 15 * 15);
 }
 
-// Displacing the eye displaces all centres perpendicular to the ray by as much as the model
-// permits.
+// Displacing the eye is equivalent to displacing all spheres in the opposite direction. Here, they
+// are displaced perpendicular to the ray, by as much as the error model permits.
 TEST(SphereBounds, CoverDisplacedCentres) {
   auto scene = scene_of(set_of({{0, 0, 0, 1}}), 64, 64, 0.1);
   SphereErrorModel model;
@@ -170,8 +171,8 @@ TEST(SphereBounds, OnlyTheSilhouetteIsUncertain) {
 }
 
 TEST(SphereBounds, AParticleSmallerThanTheMarginIsNoticed) {
-  // The sphere lies next to the central ray, so neither this ray nor a ray at the rim of the margin
-  // hits it.
+  // The small sphere is between the central ray of the pixel and the rays at the rim of the margin,
+  // so it is hit by neither of them.
   const double pixel = 2 * std::tan(std::numbers::pi / 6) / 9;
   const double off = 0.05 * pixel * 2;
   auto scene = scene_of(set_of({{0, 0, -5, 2}, {off, 0, -2, 0.2 * off}}), 9, 9, 60);

@@ -193,7 +193,8 @@ TEST(Spheres, ColoursOfEveryKind) {
   scene.particles = std::make_shared<const scene::ParticleSet>(set);
   expect(0.5, 0.125, 2);
   set.colour = scene::ColourKind::intensity;
-  // A quarter of the way from entry 10 to entry 11.
+  // Entry k of the table has the intensity (k + ½)/256, so this intensity is a quarter of the way
+  // from entry 10 to entry 11.
   set.intensity = {(10 + 0.75F) / 256};
   scene.particles = std::make_shared<const scene::ParticleSet>(set);
   scene.intensity_colours.entries[10] = {1, 0, 0.5F, 0};

@@ -74,7 +74,8 @@ TEST(TimeChart, HasAFigurePerSceneAndARowPerDevice) {
   EXPECT_EQ(time_chart({}).text(), "");
 }
 
-// Dispatches and draws are timed by different clocks, and one of them may not be trustworthy.
+// Dispatches and draws are timed by different clocks, and one of them may not be trustworthy. Two
+// times may be divided only if they come from the same clock.
 TEST(SpeedOfLight, DividesTimesOnOneClock) {
   PlanData plan;
   for (const char* technique : {"raycast", "speed_of_light"}) {

@@ -62,7 +62,7 @@ TEST(LastScreen, ShowsHowCloseImagesAreToTheirBounds) {
     result.findings.back().numbers["ratio"] = ratio;
   }
   add(result, Check::image, pass, "", "", {.cause = judge::Cause::reference_as_stored});
-  result.findings.back().numbers["ratio"] = 7;  // this ratio does not belong to a device
+  result.findings.back().numbers["ratio"] = 7;  // without a device, so it is not shown
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}, {.width = 120}),
               HasSubstr("3 within their error bounds; error / bound ≤ 0.61 (≤ 0.003 on opencl:y in "
                         "volume/quick)\n"));

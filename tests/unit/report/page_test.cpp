@@ -136,7 +136,7 @@ TEST(Page, ContainsEachImageOnce) {
   EXPECT_THAT(page, HasSubstr("<img data-same=\"0\""));
 }
 
-// Factor names come from plans, whereas levels and reasons may come from anywhere.
+// A plan can contain any factor name, even one with markup. The page must escape it.
 TEST(Page, EscapesMarkup) {
   const std::string page = page_of(true, "<script>\"&\x1b");
   EXPECT_EQ(page.find("<script"), page.rfind("<script"));  // the only script is the page's own

@@ -27,7 +27,7 @@ judge::GateResult some_result() {
 
 TEST(Markdown, ShowsHowCloseImagesAreToTheirBounds) {
   judge::GateResult result = some_result();
-  result.findings.front().numbers["ratio"] = 7;  // this ratio belongs to a wrong image
+  result.findings.front().numbers["ratio"] = 7;  // of a wrong image, so it is not shown
   result.findings.push_back(result.findings.front());
   result.findings.back().verdict = judge::Verdict::pass;
   result.findings.back().numbers["ratio"] = 0.25;

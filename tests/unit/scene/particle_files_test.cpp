@@ -153,7 +153,8 @@ TEST(Mmcif, RejectsBrokenFiles) {
   expect_refused("a.cif", "data_X\n_a 'text\n", ":2:", "expected a closing quote (')");
 }
 
-// The PDB ends each section with '#', including the header.
+// In files of the Protein Data Bank, every section, including the header, ends with a line '#'. If
+// the last section lacks this line, the file was truncated.
 TEST(Mmcif, RejectsATruncatedLoop) {
   const std::string loop =
       "loop_\n_atom_site.type_symbol\n_atom_site.Cartn_x\n_atom_site.Cartn_y\n"
@@ -168,7 +169,8 @@ TEST(Mmcif, RejectsATruncatedLoop) {
   // Some programs write '#' only between sections, or not at all.
   EXPECT_EQ(load("a.cif", "# made by hand\n#\ndata_X\n_entry.id X\n#\n" + loop).count(), 2U);
   EXPECT_EQ(load("a.cif", "data_X\n" + loop).count(), 2U);
-  // OpenMM writes its name as a comment.
+  // A comment before the first section, such as the name that OpenMM writes, does not show that the
+  // file ends its sections with '#'.
   for (const std::string marks : {"# Created with OpenMM 8.1\n#\n", "# by hand\n", "#\n#\n"}) {
     EXPECT_EQ(load("a.cif", "data_cell\n" + marks + "_cell.length_a 1\n#\n" + loop).count(), 2U)
         << marks;

@@ -115,8 +115,8 @@ TEST(ParticleGenerators, DropletsAreDenseInAMostlyEmptyBox) {
     cells.insert({static_cast<int>(sphere[0] * 2), static_cast<int>(sphere[1] * 2),
                   static_cast<int>(sphere[2] * 2)});
   }
-  // The box has 16,000 cells. The droplets occupy about 160 units of volume, and each of the 2,000
-  // vapour particles occupies one cell.
+  // The box has 16,000 cells. The droplets fill about 160 units of volume, which are 1,280 cells,
+  // and each of the 2,000 vapour particles occupies at most one more cell.
   EXPECT_LT(cells.size(), 16'000 / 4);
   EXPECT_LE(box_of_centres(set).hi.x, 20);
 }
@@ -143,7 +143,8 @@ TEST(ParticleGenerators, PlumeThinsOutWithHeightAboveALatticeWithACrater) {
     smallest = std::min(smallest, r);
     largest = std::max(largest, r);
     if (y >= 2 && y < 20) ++heights.at(static_cast<std::size_t>((y - 2) / 6));
-    // The lattice comes first, in layers of decreasing height, and leaves the crater empty.
+    // The particles of the lattice come first in the set, layer by layer from top to bottom. They
+    // leave the crater empty.
     if (in_slab == i && y < 0 && (i == 0 || y <= set.spheres[i - 1][1])) {
       ++in_slab;
       EXPECT_GE(x * x + y * y + z * z, 15.99F);

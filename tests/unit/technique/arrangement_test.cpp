@@ -165,7 +165,8 @@ TEST(Arrangement, CrowdsThatCannotBeDividedStayInOrder) {
     set.rgba8.push_back(set.rgba8[i]);
     set.ids.push_back(static_cast<std::uint32_t>(half + i));
   }
-  // This distant particle puts all other particles into the same part of the grid.
+  // Because of this distant particle, the grid is so coarse that all other particles fall into the
+  // same part of it.
   set.spheres.push_back({50, 50, 50, 1});
   set.rgba8.push_back(set.rgba8.front());
   set.ids.push_back(static_cast<std::uint32_t>(2 * half));

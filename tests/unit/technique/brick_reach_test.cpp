@@ -67,7 +67,8 @@ TEST(BrickLayout, CoversEverythingThatASampleMayRead) {
   EXPECT_EQ(brick_layout(scene, Skip::distance),
             (BrickLayout{.edge = 2, .border = 0, .of_cells = true}));
   scene.quadrature = scene::Quadrature::preintegrated;
-  // A sample reads up to 5/8 of a voxel beyond a face of its brick, plus round-off.
+  // With a step of ¼ voxel, a sample reads up to ½ + ⅛ voxel beyond a face of its brick (for the
+  // interpolation and for half a step), plus round-off.
   scene.step_voxels = 0.25;
   EXPECT_EQ(brick_layout(scene, Skip::bricks).border, 1);
   EXPECT_EQ(brick_layout(scene, Skip::distance).border, 1);
@@ -86,7 +87,8 @@ TEST(BrickLayout, ALargeVolumeHasLargerBricksOfCells) {
     scene.grid = std::make_shared<const scene::VoxelGrid>(grid);
     return brick_layout(scene, Skip::distance).edge;
   };
-  // 2²⁵ bricks, whose map needs 2²⁷ bytes.
+  // With an edge of 2 cells, this volume has 2²⁵ bricks. Their map has 2²⁷ bytes, which is the
+  // largest size that is allowed.
   EXPECT_EQ(edge({513, 513, 1025}), 2);
   EXPECT_EQ(edge({513, 513, 1026}), 4);
   EXPECT_EQ(edge({16384, 16384, 16384}), 64);

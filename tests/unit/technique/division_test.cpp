@@ -61,7 +61,8 @@ TEST(Division, EvenlySpreadParticlesStayInTheCellsOfTheGrid) {
   EXPECT_EQ(division.parts(), grid.cells() + 1);
 }
 
-// Because of a single distant particle, all others fall into one cell of the grid.
+// Because of a single distant particle, the grid is so coarse that all other particles fall into
+// one cell.
 TEST(Division, AFarParticleDoesNotPreventDivision) {
   scene::ParticleSet set = generated_set("uniform", 20'000);
   set.spheres[777][0] = 1e5F;

@@ -16,7 +16,8 @@ namespace {
 
 using Pixels = std::vector<std::pair<int, int>>;
 
-// Returns the pixels that a launch draws a second time, in the order of its grid.
+// Returns the pixels that a launch draws a second time, row by row and from left to right in the
+// grid of the launch.
 Pixels drawn_again(int width, int height, int stride) {
   Pixels pixels;
   const int again = again_from(width);

@@ -126,9 +126,9 @@ scene::TransferFunction rough_table(core::Random& random) {
 }
 
 struct Found {
-  // Largest error of the light if both ends are exact.
+  // Largest error of the light. It is meaningful only if both ends of each step are exact.
   double largest = 0;
-  // Number of steps that exceed their bound.
+  // Number of steps whose result exceeds the error bound.
   int beyond = 0;
 };
 
@@ -153,7 +153,8 @@ Found find(const scene::TransferFunction& function, double length, double error,
           std::clamp(at + 0.99 * random.uniform(-error, error), -0.75, 255.75));
     };
     const auto [r, g, b, a] = device(moved(from), moved(to), static_cast<float>(length));
-    // Positions and their differences are rounded to floats.
+    // Rounding positions and their differences to floats moves an end by up to 512·u table entries,
+    // where u is the round-off of a float.
     const double e = error + 512 * u;
     const reference::Segment truth =
         steps({(from + 0.5) / 256, e / 256}, {(to + 0.5) / 256, e / 256}, {length, length, length});

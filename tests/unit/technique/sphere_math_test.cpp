@@ -28,8 +28,8 @@ float along_axis(const glm::vec3& p, const dvec3& eye, const dvec3& axis) {
                         a.y, a.z, rest(axis.x), rest(axis.y), rest(axis.z));
 }
 
-// This is the case for which the function exists: the result must be accurate to the last bit even
-// if all three products cancel.
+// The function tri_along_axis() exists for this case: the result must be accurate to the last bit
+// even if all three products cancel.
 TEST(SphereMath, CameraCoordinatesAreCorrectToTheLastBit) {
   core::Random random(1);
   for (int i = 0; i < 20000; ++i) {

@@ -46,7 +46,8 @@ class VolumeMath : public testing::Test {
   using Number = typename Precision::Real;
 
   // Returns opacities from the smallest that differs from 0 to the largest below 1. They are dense
-  // at both ends, and where 1 − opacity is near √½, because an exponent is split off there.
+  // at both ends, and where 1 − opacity is near √½, because the computed logarithm uses another
+  // exponent on either side of √½.
   static std::vector<Number> opacities() {
     core::Random random(5);
     const Number step = static_cast<Number>(2 * Precision::roundoff);

@@ -152,7 +152,7 @@ TEST(Stress, FaintSamplesAddUpToTheirClosedForm) {
 }
 
 // The error bounds of these images are so wide that they would not reveal if a third of the samples
-// were missing.
+// were missing. Each of these scenes must therefore also state how many samples it expects.
 TEST(Stress, ScenesOfManySamplesExpectEverySample) {
   for (const std::string data : {"stress:faint", "stress:march:1e5", "stress:march:1e6"}) {
     const StressScene scene = stress_scene(*stress_data(data));

@@ -1,4 +1,4 @@
-// Checks every sentence about comparisons, one line for each cause.
+// Compares the sentences that Triptych writes about comparisons with golden files (see golden.hpp).
 
 #include <fmt/format.h>
 

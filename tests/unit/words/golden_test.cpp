@@ -1,4 +1,5 @@
-// Checks every sentence about findings, outcomes and advice, one line for each cause.
+// Compares the sentences that Triptych writes about findings, outcomes and advice with golden files
+// (see golden.hpp).
 
 #include "golden.hpp"
 

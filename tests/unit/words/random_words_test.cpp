@@ -89,7 +89,7 @@ class RandomWords : public GateTest {
           fmt::format("{} {} {} {}: {} {}\n", name_of(each.check), name_of(each.verdict),
                       each.device, each.configuration, kind_of(each), name_of(each.advice.advice));
     }
-    // The overview points into these results.
+    // The overview contains pointers to these results, so they must outlive it.
     const std::vector<GateResult> results{result};
     const report::Overview all = report::overview(results);
     for (const auto* causes : {&all.open, &all.aside}) {
