@@ -117,7 +117,8 @@ class GlBackend final : public measure::Backend {
   [[nodiscard]] std::string_view api() const override { return "gl"; }
 
   // Lists each window system in a child process. A driver that crashes or hangs therefore affects
-  // nothing else, and EGL's Mesa and OSMesa are never loaded into the same process.
+  // nothing else, and listing never loads OSMesa and the Mesa library behind EGL into the same
+  // process.
   [[nodiscard]] measure::Listing list() const override {
     measure::Listing listing;
     for (const WindowSystem& system : window_systems) {

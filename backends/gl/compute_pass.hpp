@@ -7,8 +7,7 @@
 
 namespace triptych::gl_backend {
 
-// Returns the reason why shaders cannot use storage blocks, atomic counters and fences; nullopt if
-// they can.
+// Returns the reason why shaders cannot use storage blocks; nullopt if they can.
 [[nodiscard]] std::optional<std::string> storage_unsupported(const Api& gl);
 
 // Runs one invocation per pixel. Each invocation writes its pixel into a storage buffer. Used by

@@ -39,10 +39,11 @@ class Context {
   std::unique_ptr<Api> gl_;
 };
 
-// Makes a context current on this thread for the lifetime of this object. EGL's Mesa and OSMesa
-// share the variable that holds the thread's current context, but neither notices when the other
-// changes it. If a context stayed current, its library would still regard it as bound after the
-// other library had bound a different context. Therefore every use binds and unbinds the context.
+// Makes a context current on this thread for the lifetime of this object. OSMesa and the Mesa
+// library behind EGL store the thread's current context in the same variable, but neither library
+// notices when the other changes it. If a context stayed current, its library would still regard it
+// as bound after the other library had bound a different context. Therefore every use binds the
+// context, and unbinds it afterwards.
 class Current {
  public:
   explicit Current(Context& context) : context_(context) { context_.make_current(); }

@@ -8,9 +8,9 @@ namespace triptych::gl_backend {
 
 struct Api;
 
-// Returns the driver information of the current context. The id is "gl:<driver><suffix>", without a
-// number. `suffix` names the window system, such as "-egl". Only the id of softpipe through EGL has
-// no suffix.
+// Returns the driver information of the current context. The id is "gl:<driver><suffix>". If
+// several devices have this id, the caller must append a number. `suffix` names the window system,
+// such as "-egl". Only the id of softpipe through EGL has no suffix.
 [[nodiscard]] record::Device device_info(const Api& gl, std::string_view suffix);
 
 // Returns the short driver name for device ids, from the vendor and renderer strings. For a layered

@@ -52,7 +52,7 @@ double bit(const scene::VoxelGrid& grid, int x, int y, int z) {
   const auto inside = [](int i) { return static_cast<std::size_t>(std::clamp(i, 0, edge - 1)); };
   const std::size_t index = inside(x) + edge * (inside(y) + edge * inside(z));
   const std::size_t last = (index + 1) * scene::bytes_of(grid.format) - 1;
-  return grid.data[last] != std::byte{0} ? 1 : 0;  // nonzero also for the top byte of 1.0F
+  return grid.data[last] != std::byte{0} ? 1 : 0;  // the top byte of 1 is nonzero in every format
 }
 
 double interpolated(const scene::VoxelGrid& grid, const Point& point) {

@@ -10,7 +10,7 @@ namespace triptych::gl_backend {
 Library::Library(std::initializer_list<const char*> names) {
   std::string reason;
   for (const char* name : names) {
-    // RTLD_LOCAL is needed because EGL's Mesa and OSMesa define the same symbols.
+    // RTLD_LOCAL is needed because OSMesa and the Mesa library behind EGL define the same symbols.
     handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (handle_ != nullptr) {
       name_ = name;

@@ -14,7 +14,8 @@ std::string_view depth_promise(const ParticleConstants& constants) {
              : "#define TRI_DEPTH_PROMISE depth_less\n";
 }
 
-// Before GLSL 4.10, variables between stages are matched by name instead of by location.
+// TRI_LINK(n) declares the location of a variable between two stages. It is empty below GL 4.3,
+// where shaders are compiled as GLSL 3.30 (program.cpp), which matches such variables by name.
 std::string constant_lines(const Api& gl, const ParticleConstants& constants) {
   return fmt::format(
       "#extension GL_ARB_conservative_depth : enable\n"

@@ -1,5 +1,6 @@
 #pragma once
-// The part that the techniques of both suites share: frames that consist of drawing calls.
+// Prepares and runs the frames of all techniques, both for volumes and for particles. A frame
+// consists of the GL calls of a Drawing.
 
 #include <memory>
 #include <span>

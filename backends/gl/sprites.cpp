@@ -161,8 +161,8 @@ class SpriteDrawing final : public Drawing {
     ParticleCounters counters;
   };
 
-  // Draws a frame from the previous camera. This frame is not measured. It is drawn so that the
-  // first measured frame has a previous frame.
+  // Draws a frame from the previous camera, which is not measured. It is needed because occlusion
+  // culling in the first measured frame uses the cells that were visible in the frame before it.
   void draw_before(const Api& gl, const measure::ParticleWork& work,
                    const technique::Arrangement& arrangement) {
     if (work.camera_before) data_.look_from(gl, work.before(), arrangement);

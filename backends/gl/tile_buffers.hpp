@@ -39,7 +39,8 @@ class TileBuffers {
   // the shared shaders.
   void bind(const Api& gl) const;
   void choose(const Api& gl, Cells cells) const;
-  // Overwrites all data that a frame writes before it reads them.
+  // Overwrites the data that every frame must write before it reads them, so that the image of a
+  // frame is wrong if the frame fails to write them.
   void poison(const Api& gl) const;
   // Clears the tiles and all counts. Also clears the pixels if there may be small spheres, because
   // only small spheres are drawn into them.
@@ -79,8 +80,8 @@ class TileBuffers {
   Buffer cell_ends_;
   Texture large_pixels_;
   std::vector<Texels> texels_;
-  Buffer zeros_;         // the initial contents of the tiles and of one plane of depths
-  Buffer no_particles_;  // the initial contents of one plane of particle keys
+  Buffer zeros_;         // the initial contents of the tiles and of the depths in pixels_
+  Buffer no_particles_;  // the initial contents of the particle keys in pixels_
 };
 
 }  // namespace triptych::gl_backend

@@ -58,8 +58,8 @@ struct Statistic {
   std::string_view name;  // the name in record::Counts
 };
 
-// Measures the driver's pipeline statistics for some calls and the stages that they use. A
-// statistic that the driver cannot count is omitted.
+// Counts the wanted pipeline statistics while some GL calls are executed. A statistic that the
+// driver cannot count is omitted.
 class Statistics {
  public:
   Statistics(const Api& gl, std::span<const Statistic> wanted);

@@ -29,7 +29,8 @@ std::size_t counters_size(std::size_t pixels) {
   return sizeof(GLuint) * technique::raycast_counter_stride * pixels;
 }
 
-// The program that counts, created when it is first needed.
+// The program that also counts its work, and the buffer for its counters. Both are created when
+// they are first needed.
 struct Counting {
   Program program;
   Buffer counters;

@@ -92,7 +92,7 @@ struct Failure {
 // timing", "frame statistics", "frame counters", "image", "destroy". Not thread-safe.
 using CallLog = std::vector<std::string>;
 
-// The keys of TRIPTYCH_NULL_SCRIPT, and two members that only code can set.
+// The keys of TRIPTYCH_NULL_SCRIPT, and the members `log` and `draw`, which JSON cannot express.
 struct Script {
   std::uint64_t seed = 1;
   std::vector<double> devices{1};

@@ -124,8 +124,8 @@ class NullPrepared final : public measure::Prepared {
     return image;
   }
 
-  // If the script limits the failure to one occurrence, it still affects all frames until the work
-  // is prepared again.
+  // Called once for each prepared work. A failure that the script limits to one occurrence (`once`)
+  // therefore still affects all frames until the work is prepared again.
   [[nodiscard]] core::Image drawn_image() {
     core::Image image = picture(*script_, work_, subject_);
     failure_ = image_failure(*script_, subject_);

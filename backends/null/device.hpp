@@ -28,7 +28,8 @@ void play_failure(const Script& script, Place at, const std::string& subject, in
 // Returns whether `subject` matches the glob, as fnmatch(3) without flags does.
 [[nodiscard]] bool matches(const std::string& glob, const std::string& subject);
 
-// Makes failures with `after` possible that wait for work with this description.
+// Records that this process has prepared work with this description. A failure with `after` happens
+// only if such work was prepared before.
 void remember_prepared(const std::string& description);
 
 void log_call(const Script& script, std::string call);

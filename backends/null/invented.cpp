@@ -79,7 +79,8 @@ int stride_of(const ParticleWork& work) {
   return work.options.extra_work_stride;
 }
 
-// The keys contain everything that determines an image, but not how the image is computed.
+// camera_key() and picture_key() describe everything that determines an image, but not how the
+// image is computed.
 std::string camera_key(const scene::Camera& c) {
   return fmt::format("{} {} {} {} {} {} {} {}", c.eye.x, c.eye.y, c.eye.z, c.forward.x, c.forward.y,
                      c.forward.z, c.up.x, c.fov_y_deg);

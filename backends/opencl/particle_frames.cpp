@@ -59,9 +59,8 @@ measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
   });
 }
 
-// Draws the first frame after the set of hidden cells was reset, because this set depends on the
-// previous frame. The counted frame is then the second frame, which skips the same cells as all
-// later frames.
+// Resets the set of hidden cells, which depends on the previous frame, and draws one frame. The
+// frame that is counted is then the second frame, which skips the same cells as all later frames.
 void ParticleFrames::prepare_counting() {
   if (counting_.empty()) {
     ParticleConstants constants = constants_;

@@ -40,7 +40,7 @@ struct ParticleConstants {
   bool transfer_at_pixel = true;
   bool ray_at_vertex = false;
   bool conservative_depth = false;
-  bool traced = false;  // shading reads the spheres in world space
+  bool traced = false;  // if rays are traced, shading reads the spheres in world space
   technique::ParticleFault fault = technique::ParticleFault::none;
   bool count = false;
 };

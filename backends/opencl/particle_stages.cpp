@@ -82,8 +82,8 @@ Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride)
             .depths = make_buffer(pixels_),
             .winners = make_buffer(pixels_)};
   // The buffer for entries is made large enough for all visible cells (ranges of neighbouring
-  // particles), even if the stride is greater than 1. With a stride, a pass draws only some of
-  // these cells, but with occlusion culling not the same cells in every frame.
+  // particles). If the stride is greater than 1, a pass draws only some of these cells, but
+  // occlusion culling may select other cells in each frame.
   Pass whole = pass;
   whole.stride = 1;
   std::vector<Launch> launches{cull(programs)};

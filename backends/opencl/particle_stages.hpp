@@ -41,9 +41,9 @@ class ParticleStages {
   ParticleStages(const Session& session, ParticleData data, const measure::ParticleWork& work,
                  const ParticleConstants& constants);
 
-  // Creates a pass with space for all entries that its bins can ever have. Because the camera does
-  // not move, a single round of binning determines that number. Throws core::NotSupported if the
-  // entries need more memory than a buffer may have.
+  // Creates a pass with space for all entries (pairs of a bin and a particle) that its bins can
+  // ever have. Because the camera does not move, a single round of binning determines that number.
+  // Throws core::NotSupported if the entries need more memory than a buffer may have.
   [[nodiscard]] Pass make_pass(const ParticlePrograms& programs, cl_uint stride);
   // Returns the launches of a frame.
   [[nodiscard]] std::vector<Launch> picture(const ParticlePrograms& programs,

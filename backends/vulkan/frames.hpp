@@ -17,8 +17,9 @@ class Frames {
   [[nodiscard]] bool can_count() const noexcept { return counters_.has_value(); }
   void record_counters(const Recording& counting);
 
-  // Submits the commands for this purpose, and fills in times and statistics, but not the counters
-  // that shaders compiled for counting write. The caller reads these counters.
+  // Submits the commands for this purpose. The result contains times and pipeline statistics. It
+  // does not contain Triptych's own counters: for Purpose::counters, shaders write them to a
+  // buffer, which the caller reads.
   [[nodiscard]] measure::Frame submit(measure::Purpose purpose) const;
 
  private:

@@ -13,8 +13,9 @@ namespace triptych::vulkan_backend {
 using StageNames = std::vector<std::pair<vk::ShaderStageFlagBits, std::string>>;
 
 // The pipelines of an open device. Each pipeline is built once, and is used for all work that is
-// prepared on the device. With a VkPipelineCache, the driver would decide what to cache. lavapipe
-// caches nothing, so building pipelines would take most of the time of a short frame.
+// prepared on the device. A VkPipelineCache would not replace this class, because the driver
+// decides what it caches, and lavapipe caches nothing. If all pipelines were built again for every
+// work, this would take most of the time that a short frame needs with its preparation.
 class Pipelines {
  public:
   // Builds a pipeline with the given flags.

@@ -75,8 +75,8 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
   instance_.check_validation();
 }
 
-// Draws a frame from the previous camera. This frame is not measured. It is drawn so that the first
-// measured frame has a previous frame.
+// Draws a frame from the previous camera, which is not measured. It is needed because occlusion
+// culling in the first measured frame uses the cells that were visible in the frame before it.
 void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
   if (work.camera_before) data_.look_from(work.before());
   static_cast<void>(frames_.submit(measure::Purpose::timing));

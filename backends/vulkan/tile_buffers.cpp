@@ -37,9 +37,9 @@ vk::Extent3D pairs(const scene::ParticleScene& scene, const technique::TileRound
           parts(static_cast<std::uint32_t>(scene.height), 2), 1};
 }
 
-// Returns the factor by which two buffers are enlarged: 2 with injected extra work, because then a
-// particle may be stored twice, and so may each of its entries (pairs of a tile and a sphere);
-// otherwise 1.
+// Returns the factor by which kept_ and entries_ are enlarged. It is 2 with injected extra work,
+// because a particle and its entries (pairs of a tile and a sphere) may then be stored twice;
+// otherwise it is 1.
 std::uint64_t times(const measure::ParticleWork& work) {
   return work.options.extra_work_stride > 0 ? 2 : 1;
 }

@@ -41,7 +41,8 @@ class TileBuffers {
               const technique::TileRounds& rounds);
 
   void bind(vk::DescriptorSet set) const;
-  // Overwrites all data that a frame writes before it reads them.
+  // Overwrites the data that every frame must write before it reads them, so that the image of a
+  // frame is wrong if the frame fails to write them.
   void poison() const;
   // Clears the tiles. Also clears the pixels if there may be small spheres, because only small
   // spheres are drawn into them.

@@ -11,8 +11,8 @@
 
 namespace triptych::technique {
 
-// The parameters of all kernels that build or traverse the hierarchy. `step` differs between
-// passes.
+// The parameters of all kernels that build or traverse the hierarchy. `step` is TRI_STEP in
+// hierarchy.glsl: four numbers whose meaning depends on the kernel.
 struct HierarchyParameters {
   // The lower corner of the Hilbert curve's grid; w: grid cells per unit length.
   std::array<float, 4> origin{};
@@ -52,7 +52,7 @@ class Hierarchy {
   // empty buffer.
   [[nodiscard]] std::size_t box_words() const noexcept;     // two corners of four words per node
   [[nodiscard]] std::size_t sphere_words() const noexcept;  // spheres in tree order
-  [[nodiscard]] std::size_t order_words() const noexcept;   // their particle indices
+  [[nodiscard]] std::size_t order_words() const noexcept;   // particle indices in tree order
   // Two lists of pairs (position on the Hilbert curve, particle index). Each pass of the radix sort
   // reads one of the lists and writes the other.
   [[nodiscard]] std::size_t sorted_words() const noexcept;
@@ -65,8 +65,9 @@ class Hierarchy {
   HierarchyParameters parameters_;
 };
 
-// One pass of the radix sort, by eight bits of the position on the curve. `shift` is the lowest of
-// these bits, and `from` is the index at which the input list begins.
+// One pass of the radix sort, which sorts by eight bits of the position on the Hilbert curve.
+// `shift` is the index of the lowest of these bits, and `from` is the index at which the input list
+// begins.
 struct SortPass {
   std::uint32_t shift = 0;
   std::uint32_t from = 0;

@@ -5,8 +5,8 @@ namespace triptych::technique {
 
 // Returns the number of pixels to add to the size of a point so that the device draws at least the
 // intended square (TRI_POINT_MARGIN). Devices may round the size down to a multiple of
-// `granularity`; some drivers are known to behave differently. `renderer` is the driver's name as
-// the API reports it.
+// `granularity`; a few drivers, which this function recognizes by `renderer`, are known to behave
+// differently. `renderer` is the driver's name as the API reports it.
 [[nodiscard]] double point_margin(std::string_view renderer, double granularity);
 
 // Returns the number of pixels by which a sprite must grow on each side (TRI_SPRITE_GROWTH), in

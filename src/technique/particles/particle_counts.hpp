@@ -39,7 +39,8 @@ inline constexpr std::size_t particle_counter_bytes =
 
 struct CountedFrame {
   Method method = Method::sprites;
-  // Without culling, all particles are submitted, and the shaders do not count them.
+  // Without culling, the shaders do not count what is submitted, because the frame submits all
+  // cells and particles.
   Culling culling = Culling::none;
   std::uint64_t cells = 0;
   std::uint64_t particles = 0;

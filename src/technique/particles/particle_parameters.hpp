@@ -15,7 +15,7 @@ namespace triptych::technique {
 // double is stored as two floats: the nearest float, and the remainder (see tri_along_axis in
 // portable/sphere_math.h).
 struct ParticleParameters {
-  std::array<float, 4> eye;       // xyz: position in world space; w: near (depth: near/distance)
+  std::array<float, 4> eye;       // xyz: position in world space; w: near; depth = near/distance
   std::array<float, 4> eye_rest;  // w: sprite scale, 1 unless ParticleFault::small_sprite
   std::array<float, 4> right;     // camera axes; w of right: 1/(width of the image plane at z = 1)
   std::array<float, 4> right_rest;

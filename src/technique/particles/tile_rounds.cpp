@@ -70,7 +70,7 @@ class NeedBound {
     double columns = columns_;
     double rows = rows_;
     double pixels = double{tile_edge} * tile_edge * columns * rows;
-    bool small = true;  // possible, because only a small part of the sphere may be visible
+    bool small = true;  // perhaps only a small part of the sphere is visible
     if (z > 1.001 * r) {
       const double width = extent(glm::dot(to, right_), z, r, half_x_);
       const double height = extent(glm::dot(to, camera_.up), z, r, half_y_);
@@ -87,9 +87,10 @@ class NeedBound {
   // Returns the number of pixels along one axis of the image that a sphere may cover. r is its
   // radius, a the coordinate of its centre along this axis, and z its distance along the view axis.
   // The two tangents of the sphere intersect the image plane, which is at distance 1 from the eye,
-  // at (a·z ± r·√(a² + z² − r²))/(z² − r²). This interval is clipped to the image, ±half. Three
-  // pixels are added for the margin and for rounding, so the result exceeds the size of a small
-  // sphere by less than `slack`. The result is not positive if the sphere is not visible.
+  // at (a·z ± r·√(a² + z² − r²))/(z² − r²). This interval is clipped to the image, which extends
+  // from −half to half. Three pixels are added for the margin of 1/64 pixel around the sphere and
+  // for rounding. The result therefore exceeds the size of a small sphere by less than `slack`. The
+  // result is not positive if the sphere is not visible.
   [[nodiscard]] double extent(double a, double z, double r, double half) const {
     const double k2 = (z - r) * (z + r);
     const double reach = r * std::sqrt(a * a + k2);
@@ -140,7 +141,7 @@ TileRounds tile_rounds(const scene::ParticleScene& scene, const Arrangement& arr
     need.add(more);
   }
   finish();
-  constexpr double few = 2;  // average number of spheres that are drawn into a pixel
+  constexpr double few = 2;  // number of spheres that cover a pixel, on average
   out.at_once = out.rounds.size() == 1 && covered <= few * pixels;
   return out;
 }

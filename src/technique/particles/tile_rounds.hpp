@@ -29,7 +29,9 @@ struct TileRounds {
   std::vector<TileRound> rounds;  // the rounds together contain all cells, front to back
   std::uint64_t entries = 0;      // the largest TileRound::entries
   bool small = false;             // whether there may be small spheres
-  bool at_once = false;  // there is one round with little overdraw, which the last pass draws alone
+  // Whether the last pass of the frame draws the large spheres, instead of earlier passes. This is
+  // the case if there is only one round, and a pixel is drawn at most twice on average.
+  bool at_once = false;
   std::uint64_t passes = 0;  // maximum loop iterations per invocation of tiles_bin or tiles_fill
 
   // Returns whether large spheres are drawn by passes before the last one.

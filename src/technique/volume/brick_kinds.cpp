@@ -142,7 +142,8 @@ class Merging {
   double opaque_share_;      // K in the derivation (brick_kinds.hpp)
   double thin_share_ = 0;    // Y in the derivation (brick_kinds.hpp)
   double colour_range_ = 1;  // R in the derivation (brick_kinds.hpp)
-  double steepest_ = 0;      // largest cosine of the shading per unit of a brick's range of values
+  // The cosine in the shading is at most this number times the width of a brick's range of values.
+  double steepest_ = 0;
 
   // Returns a colour after shading with this cosine. A larger cosine gives a brighter colour.
   [[nodiscard]] double lit(double colour, double cosine) const {

@@ -31,9 +31,9 @@ struct Range {
   }
 };
 
-// Merges the value ranges of voxels to those of bricks, along one axis. `from` contains `stride`
-// adjacent ranges for each of the `lines` voxel positions along the axis. `to` contains `stride`
-// ranges for each of the `bricks` brick positions.
+// Merges the value ranges of voxels into the value ranges of bricks, along one axis. `from`
+// contains `stride` adjacent ranges for each of the `lines` voxel positions along the axis. `to`
+// contains `stride` ranges for each of the `bricks` brick positions.
 void gather(std::span<const Range> from, std::size_t stride, int lines, int bricks,
             const BrickLayout& layout, std::span<Range> to) {
   for (int b = 0; b < bricks; ++b) {

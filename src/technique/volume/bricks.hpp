@@ -33,8 +33,8 @@ struct BrickLayout {
 //     begin at voxel centres (of_cells), so that a midpoint sample reads only voxels of the brick
 //     itself, and a preintegrated step reads ⌈s/2⌉ voxels beyond it. If rounding moves a sample
 //     across a face, the voxels behind the face have a weight that is as small as the rounding, at
-//     most 1e-3. Visibility is widened by one table entry, which covers this. The edge is 2 cells.
-//     It is doubled until the map takes at most 128 MiB.
+//     most 1e-3. brick_visibility() widens the range of values by one table entry, which covers
+//     this error. The edge is 2 cells. It is doubled until the map takes at most 128 MiB.
 //   - Quadrature::cells reads only the eight voxels of a cell, so it uses bricks of cells for both
 //     kinds of skipping.
 //   - `adapt` (RaycastOptions): shading reads one more voxel, which must be included in the range

@@ -9,12 +9,14 @@
 
 namespace triptych::technique {
 
-// cell_passes() returns the number of loop iterations that a ray may need with quadrature=cells. It
-// must not exceed most_cell_passes. A ray crosses at most as many voxel planes as there are along
-// all three axes together. It needs one iteration for each cell and one for each piece of a cell.
-// Each kink of the transfer function and each extremum of the values along the ray adds a piece.
-// The number includes only one such piece per cell, so the limit is half the number of iterations
-// that drivers allow. `more` is the number of loop iterations within a piece.
+// cell_passes() estimates the number of loop iterations that a ray needs with quadrature=cells. It
+// must not exceed most_cell_passes. A ray crosses at most as many cells as there are voxel planes
+// along all three axes together. It needs one iteration for each cell and 1 + `more` iterations for
+// each piece of a cell, where `more` is the number of loop iterations within a piece. A cell
+// consists of scene.parts_of_cell() pieces, and of one more piece for each kink of the transfer
+// function and for each extremum of the values along the ray. The estimate contains only one such
+// additional piece per cell. Because there may be more, most_cell_passes is only half the number of
+// iterations that drivers allow.
 inline constexpr std::int64_t most_cell_passes = 32'768;
 [[nodiscard]] inline std::int64_t cell_passes(const scene::VolumeScene& scene, int more) {
   const auto [nx, ny, nz] = scene.grid->size;

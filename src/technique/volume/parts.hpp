@@ -66,8 +66,9 @@ struct Cut {
 };
 // Cuts the volume into parts that fit. The first part also takes the samples in one more cell on
 // each side, because rounding may put a ray's first sample behind the eye. On each side, every part
-// contains additional cells that its samples may read: one for this cell of the first part, one for
-// rounding, one for gradients if shading is enabled, and as many as a preintegrated step may cross.
+// contains additional cells that its samples may read: one for the additional cell of the first
+// part, one for rounding, one for gradients if shading is enabled, and as many as a preintegrated
+// step may cross.
 [[nodiscard]] Cut cut_into_parts(std::string_view technique, const scene::VolumeScene& scene,
                                  const RaycastOptions& options, const Layers& layers,
                                  const Room& room);

@@ -15,10 +15,11 @@ constexpr std::size_t entries = 256;
 constexpr double most_extinction = 8192;  // extinction per voxel length for an entry of opacity 1
 
 // The optical depth of a path and the moments of its colours. A path is a part of a ray along which
-// the value changes linearly from one entry of the transfer function to another. x is the optical
-// depth from the beginning of the path, in natural units (a depth x transmits e^−x of the light)
-// and for cells that are one voxel long. The members are ∫dx and, for each colour channel c, ∫c dx,
-// ∫c·x dx and ∫c·x² dx.
+// the value changes linearly from one entry of the transfer function to another. It consists of
+// cells, which are the intervals between adjacent entries. x is the optical depth from the
+// beginning of the path, in natural units (a depth x transmits e^−x of the light), computed as if
+// each cell were one voxel long. The members are ∫dx and, for each colour channel c, ∫c dx, ∫c·x dx
+// and ∫c·x² dx.
 struct Moments {
   double depth = 0;
   std::array<double, 3> c0{};
@@ -42,12 +43,13 @@ double extinction(double alpha) {
   return std::min(-scene::logarithm_of_1_plus(-alpha), most_extinction);
 }
 
-// Integrates one cell from entry a to entry b. The cell is cut into four pieces. A piece is halved
-// as long as the extinction −ln(1 − alpha) differs by more than about a tenth between its ends, so
-// pieces become shorter towards an end at which alpha is 1. Each piece is integrated with the
-// five-point Gauss rule. The optical depth in front of a point is the sum of the depths of the
-// previous pieces and the integral of a parabola, which interpolates the extinction at both ends
-// and in the middle of the piece that contains the point.
+// Integrates one cell, which is a part of a ray along which the value changes linearly from the
+// entry a to the adjacent entry b. The cell is cut into four pieces. A piece is halved as long as
+// the extinction −ln(1 − alpha) differs by more than about a tenth between its ends, so pieces
+// become shorter towards an end at which alpha is 1. Each piece is integrated with the five-point
+// Gauss rule. The optical depth in front of a point is the sum of the depths of the previous pieces
+// and the integral of a parabola, which interpolates the extinction at both ends and in the middle
+// of the piece that contains the point.
 class CellIntegral {
  public:
   CellIntegral(const Entry& a, const Entry& b) : a_(a), b_(b) {}
