@@ -128,7 +128,8 @@ TEST(Cells, V1IsExact) {
   });
 }
 
-// To be as accurate, a second-order rule would need a step size of about one hundredth of a voxel.
+// To be as accurate as the quadrature `cells`, a second-order rule such as the midpoint rule would
+// need a step size of about one hundredth of a voxel.
 TEST(Cells, AreCloserToTheLimitThanManySamples) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("surfaces");

@@ -75,7 +75,7 @@ scene::Volume walls() {
 // A sample on the face between two bricks belongs to the next brick along the ray if rays walk from
 // brick to brick (skip=bricks), and to the brick with the higher index if rays leap over cubes of
 // bricks (skip=distance). For rays in the negative direction of an axis, these are two different
-// bricks.
+// bricks. The timed and the counting build must assign such samples to the same brick.
 TEST(CountedAsTimed, SamplesOnBrickFacesAreCountedAsDrawn) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = small_scene("surfaces");
@@ -194,10 +194,10 @@ TEST(CountedAsTimed, BothBuildsDrawTheSameVolumeImage) {
   });
 }
 
-// If a shader violates its declaration of conservative depth, the image reveals which fragments
-// were rejected early. The counting build has to reject the same fragments. The images without the
-// violation are also compared, but only in the nightly run (everything()) or if the technique
-// cannot violate the declaration.
+// With the injected fault `wrong_sense`, a shader violates its declaration of conservative depth,
+// so the image reveals which fragments were rejected early. The counting build must reject the same
+// fragments as the timed build. Images without the fault are compared only in the nightly run
+// (everything()), or if the fault cannot be injected into the technique.
 TEST(CountedAsTimed, BothBuildsRejectTheSameFragmentsEarly) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();

@@ -63,7 +63,7 @@ TEST(Halves, StayWithinTheBoundOfTheRoundedData) {
         }
       }
     }
-    EXPECT_GT(unpaid, 1);  // the bound is too narrow if it ignores the rounding of voxels
+    EXPECT_GT(unpaid, 1);  // images exceed a bound that ignores the rounding of voxels
   });
 }
 

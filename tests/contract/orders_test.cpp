@@ -75,8 +75,9 @@ TEST(Orders, SmoothProblemsAreOfSecondOrder) {
   });
 }
 
-// Returns the order of convergence to the limit image of the grid, for scenes whose grid differs
-// from their closed-form solution.
+// Returns the order with which images converge to the limit image, which is the image of the voxel
+// grid with exact ray integrals. Used for scenes whose grid only approximates the field of the
+// closed-form solution.
 double order_against_limit(measure::Device& device, AnalyticProblem problem, int size) {
   reference::AnalyticScene analytic = scene_of(problem, size, 1);
   const core::Image exact = reference::render_volume_converged(analytic.scene, 1e-7).image();

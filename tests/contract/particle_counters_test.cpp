@@ -90,17 +90,18 @@ ParticleWork covered_crowd(int crowd) {
   return particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 10), 64, 64);
 }
 
-// A ray skips everything behind the surface that it has already found. Rays traverse the tree of
-// boxes in beams of at least 8 pixels. The bound on the number of visited nodes follows from the
-// scene. Every box intersects every beam, because every sphere fills the image. Boxes around the
-// large sphere begin at its front, at a distance of 5 from the eye. All other boxes begin beyond
-// 7.9, and the visible surface is at most 5.1 away. Each beam visits the nearer child first, so it
-// descends directly to the leaf of the large sphere, which takes as many nodes as the tree has
-// levels. After that, shaders skip all other boxes. OpenCL's tiles, however, update their farthest
-// depth only after every eighth sphere, and a leaf has four spheres, so a second leaf may be
-// visited first, with at most as many nodes on the way to it. The sibling of each of these nodes
-// was tested before the depths were known, so it may be visited too, but nothing below it. In
-// total, a beam visits at most 4 nodes per level.
+// Rays traverse the tree of boxes in beams (bundles) of at least 8 pixels. A beam must skip all
+// boxes behind the surface that it has already found. Every sphere fills the image, so every beam
+// intersects every box. Boxes that contain the large sphere begin at its front, at a distance of 5
+// from the eye. All other boxes begin beyond 7.9. The surface of the large sphere is at most 5.1
+// away in the whole image, so it hides all other boxes. In each level of the tree, a beam visits at
+// most four nodes:
+//   - one node on the way to the leaf of the large sphere, to which the beam descends first,
+//     because it visits the nearer child of each node first;
+//   - one node on the way to a second leaf. Only OpenCL's beams visit it, because they update their
+//     farthest depth only after every eighth sphere, and a leaf has four spheres;
+//   - the siblings of these two nodes. Their boxes may have been tested before the depth was known,
+//     but nothing below them is visited.
 TEST(ParticleCounters, RaysVisitOnlyWhatTheyMayHit) {
   constexpr std::uint64_t levels = 11;
   constexpr std::uint64_t most_beams = 64 * 64 / 8;

@@ -11,10 +11,11 @@ struct Injected {
   ParticleWork work;
 };
 
-// Returns the faults, each with a scene that reveals it. The fault `small_sprite` needs small
-// spheres, because `tiles` tests a small sphere only for the pixels of a rectangle, but a large
-// sphere for whole quarters of tiles. The fault `unresolved_ties` needs coincident spheres, and
-// `lost_at_border` needs spheres that overlap several tiles.
+// Returns the faults, each with a scene that reveals it. The fault `small_sprite`, which shrinks
+// the rectangle of pixels around a sphere, needs small spheres: `tiles` tests a small sphere only
+// for the pixels of this rectangle, but a large sphere for all pixels of the quarters of tiles that
+// the rectangle reaches. The fault `unresolved_ties` needs coincident spheres, and `lost_at_border`
+// needs spheres that overlap several tiles.
 std::vector<Injected> faults() {
   std::vector<Injected> all;
   all.push_back({"small_sprite", generated_work("uniform", 10000, "orbit_y:1/8", 200)});

@@ -1,5 +1,5 @@
-// Compares spheres drawn by every technique with the reference image, and tests that certain
-// options do not change the image.
+// Compares spheres drawn by every technique with the reference image, and tests that options for
+// how particles are drawn do not change the image.
 
 #include "scene/particles.hpp"
 
@@ -109,8 +109,9 @@ TEST(Particles, RaysComputedAtVerticesAreCorrect) {
   });
 }
 
-// The options for ties, culling, conservative depth and corners determine how the image is drawn,
-// but must not change it.
+// Techniques, culling and conservative depth determine how the image is drawn, but must not change
+// it. Eight spheres coincide at each position, so all of these must also select the same sphere
+// among equal depths.
 TEST(Particles, AllTechniquesAndOptionsAreBitIdentical) {
   on_every_driver([](measure::Device& device) {
     for (const char* camera : {"orbit_y:1/8", "path_z:7/8"}) {
@@ -128,7 +129,7 @@ TEST(Particles, AllTechniquesAndOptionsAreBitIdentical) {
             options.conservative_depth = conservative;
             options.corners = 5;
             const auto prepared = device.prepare(work);
-            // Occlusion culling depends on the previous frame.
+            // Compares the third frame, because occlusion culling depends on the previous frame.
             for (int frame = 0; frame < 3; ++frame) {
               static_cast<void>(prepared->frame(measure::Purpose::timing));
             }

@@ -145,8 +145,8 @@ TEST(Parts, MatchTheWholeVolumeInImageAndCounts) {
   });
 }
 
-// Tests every voxel format, rays that end early or never, and steps that are longer than the cells
-// of a part.
+// Tests a volume of bytes and a volume of floats, rays that end early or never, and steps that are
+// shorter or longer than a cell.
 TEST(Parts, MatchTheWholeVolumeForEveryFormatAndStep) {
   on_every_driver([](measure::Device& device) {
     for (const std::string_view generator : {"sparse_field", "frequency_box"}) {
@@ -247,7 +247,8 @@ TEST(Parts, VolumesDeeperThanAnyImageStayWithinTheBound) {
   });
 }
 
-// The reason contains both numbers and a remedy.
+// If the budget is too small for the thinnest part, the reason names the budget. Techniques and
+// samplers that cannot draw parts are rejected as well.
 TEST(Parts, ImpossiblePartsAreRejectedWithAReason) {
   on_every_driver([](measure::Device& device) {
     measure::Work work = work_of("mandelbulb", small_scene("surfaces"));

@@ -43,9 +43,10 @@ double rms_error(const core::Image& image, const reference::AnalyticScene& analy
 }
 
 // The remaining error consists of two parts. The first is the round-off in positions, values and
-// sums. Its root mean square is that of V1 (1.3e-7), which has no other error. The second is the
-// error of the table between two entries, which is derived in analytic_scenes.hpp and amounts to
-// 1e-6 for the worst pixel. The midpoint rule with the same step size has an error of 1e-4 or more.
+// sums. Its root mean square is 1.3e-7, as in problem V1 (a homogeneous box), which has no other
+// error. The second is the error of the table between two entries, which is derived in
+// analytic_scenes.hpp and amounts to 1e-6 for the worst pixel. The midpoint rule with the same step
+// size has an error of 1e-4 or more.
 TEST(Preintegrated, V3IsExactForEveryStepUpToItsPlateaus) {
   on_every_driver([](measure::Device& device) {
     for (const double step : {0.125, 0.3, 0.5, 1.0}) {

@@ -88,7 +88,9 @@ TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
     const ParticleWork work = white_spheres({{centres[0].x, centres[0].y, centres[0].z, 0.8},
                                              {centres[1].x, centres[1].y, centres[1].z, 0.8}},
                                             camera);
-    const double rounding = 24 * 0x1.0p-24 * 7;  // for depth, as explained in tolerance.hpp
+    // The rounding error of the depth is at most 24·2⁻²⁴ times the distance to the far side of a
+    // sphere (suites/particles/tolerance.hpp). Here, this distance is less than 7.
+    const double rounding = 24 * 0x1.0p-24 * 7;
     with_every_technique(device, work, [&](const measure::Work& whole) {
       const core::Image image = draw(device, whole);
       for (int y = 0; y < side; ++y) {

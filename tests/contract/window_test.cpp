@@ -63,9 +63,9 @@ TEST(Window, EveryMappingStaysWithinItsBound) {
   });
 }
 
-// The logarithm removes the long tail up to the rounding of floats. A rounding error of 2⁻²⁴ of a
-// value becomes 2⁻²⁴/ln 10⁴ of the range of the logarithm, and storing the logarithm rounds by
-// another 2⁻²⁵.
+// The logarithm removes the long tail, except for the rounding of floats: the rounded values span a
+// factor of 10⁴, so a relative rounding error of 2⁻²⁴ becomes an error of 2⁻²⁴/ln 10⁴ of the range
+// of the logarithm. Storing the logarithm rounds by another 2⁻²⁵ of its range.
 TEST(Window, ALogarithmRevealsWhatALongTailHides) {
   on_every_device([](measure::Device& device) {
     const core::Image hidden =

@@ -14,9 +14,9 @@
 namespace triptych::layer {
 namespace {
 
-// The next layer below this one, for an instance or a device. This layer must look up the instance
-// commands that it needs while vkCreateInstance runs. Afterwards, the loader would return this
-// layer's own functions.
+// The next layer below this one, for an instance or a device. `taken` contains the instance
+// commands that this layer needs. They must be looked up while vkCreateInstance runs, because
+// afterwards the loader would return this layer's own functions.
 struct Link {
   VkInstance instance = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;  // null if this is the link of an instance

@@ -45,7 +45,8 @@ constexpr std::array<Named<VkBool32 Features::*>, 9> features_named{{
     {"shaderFloat64", &Features::shaderFloat64},
 }};
 
-// The limits that are lowered by special code, either here or in memory.cpp and queues.cpp.
+// The other names that TRIPTYCH_LAYER may contain. Special code implements them, either in this
+// file or in memory.cpp and queues.cpp.
 constexpr std::array<std::string_view, 15> others{
     "maxComputeWorkGroupSize", "maxComputeWorkGroupCount",
     "maxFramebufferWidth",     "pointSizeRange",
@@ -106,9 +107,9 @@ VKAPI_ATTR void VKAPI_CALL features2(VkPhysicalDevice physical,
   lower(features->features);
 }
 
-// `linearFilter` removes linear filtering from single-channel formats, which volumes use.
-// `floatDepth` removes D32_SFLOAT, which a device that supports X8_D24_UNORM_PACK32 need not
-// support.
+// Implements two of the names in `others`: `linearFilter` removes linear filtering from
+// single-channel formats, which volumes use, and `floatDepth` removes D32_SFLOAT, which a device
+// that supports X8_D24_UNORM_PACK32 need not support.
 VKAPI_ATTR void VKAPI_CALL format_properties(VkPhysicalDevice physical, VkFormat format,
                                              VkFormatProperties* properties) {
   next<PFN_vkGetPhysicalDeviceFormatProperties>(physical, "vkGetPhysicalDeviceFormatProperties")(

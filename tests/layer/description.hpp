@@ -1,5 +1,5 @@
 #pragma once
-// Changes what the device reports about itself: lowers one of its properties.
+// Changes what the device reports about itself: lowers its limits and hides its features.
 
 #include <vulkan/vulkan_core.h>
 

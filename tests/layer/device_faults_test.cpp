@@ -13,7 +13,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// Selects one configuration for each kind of work.
+// Selects the configurations of volume.yaml with this data, of which there is one for each kind of
+// device work: raycast computes, and raycast_fragment draws.
 constexpr const char* few = "--set data=generate:mandelbulb:40";
 
 struct DeviceFaultCase {

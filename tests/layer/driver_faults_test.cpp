@@ -1,5 +1,5 @@
-// Tests that each fault of a driver is found, is reported as few causes, and is attributed to the
-// driver, while everything else still passes.
+// Tests that each fault of a driver is found, is reported as only a few causes, and is attributed
+// to the driver, while everything else still passes.
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -79,7 +79,7 @@ std::string unwrapped(const std::string& screen) {
 
 class DriverFaults : public LayerTest {
  protected:
-  // Checks every fault that the plan detects.
+  // Simulates each fault that this plan can detect, and checks that the gate finds it.
   void check(std::string_view plan) const {
     const test::Result accepted = layered.accept(plan);
     ASSERT_EQ(accepted.code, 0) << accepted.output;

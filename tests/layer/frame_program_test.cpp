@@ -28,7 +28,8 @@ class FramePrograms : public testing::Test {
         TRIPTYCH_PROGRAM, device, more));
   }
 
-  // Checks that the program prints the middle pixel of the image.
+  // Renders a frame, compiles the C program that `--dump` writes, and checks that this program
+  // prints the same colour of the middle pixel as the rendered image has.
   void expect_same_pixel(const std::string& device, const std::string& libraries,
                          const std::string& choice, const std::string& more) const {
     SCOPED_TRACE(device + " " + more);
@@ -97,7 +98,8 @@ TEST_F(FramePrograms, DumpsListAllDriverInputs) {
   EXPECT_THAT(list, HasSubstr("buffer-"));
 }
 
-// Public tools must accept the device code of every API.
+// The script compile.sh in the dump compiles the device code with public tools, such as clang,
+// which must accept the code of every API.
 TEST_F(FramePrograms, DumpsCompileWithPublicTools) {
   std::vector<std::string> devices{"vulkan:lavapipe", "gl:llvmpipe-egl"};
   if (in_folder("command -v clang").code == 0) devices.emplace_back("opencl:pocl");

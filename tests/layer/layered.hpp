@@ -1,5 +1,6 @@
 #pragma once
-// Runs Triptych on lavapipe with the layer.
+// Runs Triptych on lavapipe with the test layer, which lowers limits of the device or simulates a
+// driver fault.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -59,7 +60,8 @@ class Layered {
                                file_of(plan), plan));
   }
 
-  // Also measures times and statistics, for the configurations that `choice` selects.
+  // Unlike draw(), also measures times and pipeline statistics. Measures only the configurations
+  // that `choice` selects.
   [[nodiscard]] test::Result time(std::string_view change, std::string_view plan,
                                   std::string_view choice) const {
     return run(change, fmt::format("run {} --device 'vulkan:*' --verbose --store timed.sqlite {}",

@@ -111,7 +111,8 @@ std::vector<Lowered> rows_of(std::string_view plan) {
 
 class LoweredLimits : public LayerTest {
  protected:
-  // Checks every row that belongs to the plan.
+  // Draws the plan once for each of its rows of lowered limits, and checks what is skipped and that
+  // the rest is correct.
   void check(std::string_view plan) const {
     const test::Result accepted = layered.accept(plan);
     ASSERT_EQ(accepted.code, 0) << accepted.output;
@@ -151,8 +152,9 @@ TEST_F(LoweredLimits, WallTimeIsUsedWithoutADeviceClock) {
   EXPECT_THAT(timed.output, Not(HasSubstr(" ms (device)")));
 }
 
-// Tests the layer itself: it hides properties of the driver, and rejects calls that exceed a limit.
-// These limits are lower than the specification permits, so Triptych does not check them.
+// Tests the layer itself: it offers no device if the name of the limit is unknown, and it rejects
+// calls that exceed a limit. The two limits are set to values that the specification does not
+// permit, so Triptych does not check them and makes such calls.
 TEST_F(LoweredLimits, UseBeyondALimitIsRejected) {
   EXPECT_THAT(layered.draw("noSuchLimit", volume).output, HasSubstr("no device matches vulkan:*"));
   const std::string unasked = layered.draw("maxImageDimension1D=128", volume).output;

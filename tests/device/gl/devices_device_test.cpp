@@ -32,8 +32,8 @@ TEST(GlDevices, ListingTwiceGivesTheSameDevices) {
   EXPECT_EQ(std::set<std::string>(all.begin(), all.end()).size(), all.size());
   for (const std::string& id : all) {
     EXPECT_THAT(id, MatchesRegex("gl:[a-z0-9_]+.*"));
-    // The machine has only one CPU, so llvmpipe must be listed once, no matter in how many ways EGL
-    // offers it.
+    // llvmpipe always renders on the CPU, so it must be listed as a single device, no matter in how
+    // many ways EGL offers it.
     EXPECT_FALSE(id.starts_with("gl:llvmpipe") && id.ends_with("#2")) << id;
   }
 }
@@ -151,7 +151,9 @@ TEST(GlDevices, CountersAndBrickMapsMustFitIntoAStorageBlock) {
     const int edge = std::stoi(device.info().limits.at("GL_MAX_3D_TEXTURE_SIZE"));
     scene::VolumeScene scene = make_scene({.voxel = scene::VoxelFormat::u8});
     auto grid = *scene.grid;
-    const int bricked = static_cast<int>(2 * std::cbrt(most / 4)) + 3;  // 4 bytes per 2³ brick
+    // The edge of a volume whose brick map exceeds the limit. The map has 4 bytes for each brick of
+    // 2³ cells.
+    const int bricked = static_cast<int>(2 * std::cbrt(most / 4)) + 3;
     if (bricked <= edge) {
       grid.size = {bricked, bricked, bricked};
       scene.grid = std::make_shared<const scene::VoxelGrid>(grid);

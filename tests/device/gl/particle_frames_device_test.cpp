@@ -180,7 +180,7 @@ struct InOnePlace {
 TEST(GlParticleFrames, EmptyTilesAreNotResolved) {
   for_each_device([](measure::Device& device) {
     if (device.info().driver != "llvmpipe")
-      return;  // the only driver known to count invocations exactly
+      return;  // only llvmpipe is known to count invocations exactly
     for (const auto& [radius, count, tiles, at_once] :
          {InOnePlace{1, 1, 0, true}, {8, 1, 4, true}, {8, 40, 4, false}, {40, 40, 9, false}}) {
       const scene::ParticleScene scene =
@@ -296,8 +296,7 @@ TEST(GlParticleFrames, ConservativeDepthIsASeparateBuild) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = seen_from({{0, 0, -3, 1}}, {0, 0, 0}, 60);
     for_each_technique(device, [&](std::string_view technique) {
-      if (technique == "tiles")
-        return;  // tiles always reject by the front of every sphere, with or without the option
+      if (technique == "tiles") return;  // `tiles` ignores the option, so it has only one build
       const auto hash = [&](const ParticleOptions& options) {
         return device.prepare(particle_work(technique, scene, options))->kernel_hash();
       };

@@ -178,8 +178,8 @@ TEST(GlPictures, RepeatedFramesAreBitIdentical) {
 }
 
 TEST(GlPictures, InjectedFaultsExceedTheBound) {
-  // If the sampler's error were larger than the rounding to 8 bits, the bound would be so wide that
-  // it hides faults.
+  // A sampler with a larger error than this is skipped, because its bound would be so wide that it
+  // hides faults.
   constexpr double coarse = 1.0 / 64;
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : picture_techniques) {

@@ -28,7 +28,8 @@ std::string suffix_of(GLint type) {
   return suffixes.at(type);
 }
 
-// Adds all shaders of the context. Each shader exists as long as a program uses it.
+// Adds the sources of all shaders of the context. The shaders still exist because programs use
+// them.
 void add_sources(const Api& gl, Sources& sources) {
   constexpr GLuint highest_name = 1000;
   for (GLuint name = 1; name < highest_name; ++name) {

@@ -27,7 +27,8 @@ TEST(OpenClDevices, ListingTwiceGivesTheSameDevices) {
   EXPECT_FALSE(first.devices.empty() && first.broken.empty());
 }
 
-// Clover without hardware and rusticl without its environment variable list no devices.
+// Tests platforms that list no devices, such as Clover without hardware, or rusticl without its
+// environment variable.
 TEST(OpenClDevices, AnEmptyPlatformIsReportedAndAffectsNothingElse) {
   const measure::Listing listing = make_backend()->list();
   for (const measure::Broken& each : listing.broken) {
@@ -99,7 +100,8 @@ TEST(OpenClDevices, TheDefaultPathIsAsExactAsManualInterpolation) {
     for (const auto voxel :
          {scene::VoxelFormat::u8, scene::VoxelFormat::u16, scene::VoxelFormat::f32}) {
       const double error = device.filter_weight_error({voxel, technique::Sampler::hardware});
-      // The coarsest known sampler rounds its results to 8 bits more than once.
+      // Any error is accepted for u8, because the coarsest known sampler then rounds its results to
+      // 8 bits more than once.
       EXPECT_LT(error, voxel == scene::VoxelFormat::u8 ? 2 : 0.01);
       std::printf("%s %s sampler error %.3g\n", device.info().id.c_str(),
                   std::string(scene::name_of(voxel)).c_str(), error);

@@ -59,8 +59,10 @@ TEST(OpenClParticles, SpritesFollowTheFillRule) {
     EXPECT_EQ(counts.at("vertices"), 4U);
     EXPECT_EQ(counts.at("sprites"), 1U);
     EXPECT_EQ(counts.at("visible_ids"), 1U);
-    // S6: the area of an n-gon around a disc is n·tan(π/n)/π times the area of the disc. The disc
-    // has the radius of the sphere and lies just in front of it, where the silhouette is smaller.
+    // S6: the area of an n-gon around a disc is n·tan(π/n)/π times the area of the disc. Here, the
+    // disc has the sphere's radius 1 and lies at the distance 3·(1 − 1/1024), just in front of the
+    // sphere. At this distance, the cone of all rays that touch the sphere has the radius
+    // `silhouette`. Fragments outside of the cone are not kept.
     const double silhouette = 3 * (1 - 1.0 / 1024) * std::tan(std::asin(0.25));
     double before = std::numeric_limits<double>::infinity();
     for (const int corners : {4, 5, 8, 16, 32}) {

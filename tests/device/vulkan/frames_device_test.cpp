@@ -101,7 +101,7 @@ TEST(VulkanFrames, StatisticsAreExactAndRepeatable) {
     std::uint64_t fragments = 0;
     for (int repeat = 0; repeat < 3; ++repeat) {
       const record::Counts of_compute = compute->frame(Purpose::statistics).counts;
-      // An image of 37×26 pixels has 5×4 tiles of 8×8 pixels.
+      // An image of 33×29 pixels has 5×4 tiles of 8×8 pixels.
       EXPECT_EQ(of_compute, (record::Counts{{"compute_invocations", 5U * 4U * 64U}}));
       const record::Counts of_draw = draw->frame(Purpose::statistics).counts;
       EXPECT_EQ(of_draw.at("input_assembly_vertices"), 3U);
@@ -109,9 +109,10 @@ TEST(VulkanFrames, StatisticsAreExactAndRepeatable) {
       EXPECT_EQ(of_draw.at("vertex_invocations"), 3U);
       EXPECT_EQ(of_draw.at("clipping_invocations"), 1U);
       EXPECT_GE(of_draw.at("clipping_primitives"), 1U);
-      // The number depends on how the driver counts, which the gate judges separately. For the 962
-      // pixels of this image, lavapipe from Mesa 22.3 counts an invocation for each pixel and all
-      // helper invocations, whereas lavapipe from Mesa 25.0.7 counts 957 invocations.
+      // The number of fragment invocations depends on how the driver counts, which the gate judges
+      // separately. For this image of 33×29 = 957 pixels, lavapipe from Mesa 25.0.7 counts exactly
+      // one invocation for each pixel, whereas lavapipe from Mesa 22.3 also counts helper
+      // invocations.
       EXPECT_GT(of_draw.at("fragment_invocations"), 0U);
       if (repeat == 0) fragments = of_draw.at("fragment_invocations");
       EXPECT_EQ(of_draw.at("fragment_invocations"), fragments);
@@ -173,8 +174,8 @@ TEST(VulkanFrames, ExtraWorkIsDone) {
     if (device.info().limits.at("pipelineStatisticsQuery") == "no") GTEST_SKIP();
     const auto prepared =
         device.prepare(make_work("raycast", make_scene(), {.extra_work_stride = 2}));
-    // In each row of tiles, three tiles of 16 columns cover the image, and two of these tiles are
-    // drawn again.
+    // The image has 4 rows of 3 tiles of 16×8 pixels, each of which takes 2 work groups of 64
+    // invocations. To draw half of the tiles again, 2 more tiles are dispatched in each row.
     EXPECT_EQ(prepared->frame(Purpose::statistics).counts.at("compute_invocations"),
               2U * (3U + 2U) * 4U * 64U);
     const auto drawn =

@@ -78,7 +78,8 @@ TEST(VulkanLimits, ABufferIsBoundCompletelyOrNotAtAll) {
   });
 }
 
-// A filter with an error above this limit is faulty. Its error must not widen the bound of images.
+// A filter whose error exceeds the allowed error is faulty, and such an error must not widen the
+// bound of images.
 TEST(VulkanLimits, TheAllowedFilterErrorFollowsFromFormatAndWeights) {
   using enum scene::VoxelFormat;
   const Instance instance;

@@ -37,7 +37,8 @@ reference::Truth truth_of(const measure::Device& device, const scene::VolumeScen
   const double filter = device.filter_weight_error({scene.grid->format, options.sampler});
   reference::ErrorModel model =
       volume_suite::error_model(scene, {.ert = options.ert, .filter_weight_error = filter});
-  // An 8-bit filter also rounds its result, regardless of the difference between the voxels.
+  // An 8-bit filter also rounds its result, regardless of the difference between the voxels. The
+  // error that the probe found is therefore allowed for the value, too.
   if (filter > 1e-5) model.value_error += filter;
   return reference::render_volume(scene, model);
 }
@@ -100,7 +101,8 @@ TEST(VulkanPictures, CamerasInsideOnFacesAndAlongAxes) {
          {glm::dvec3{half, half, half}, glm::dvec3{0, 0, 0}, glm::dvec3{edge, half, edge},
           glm::dvec3{half, half, 2 * edge}, glm::dvec3{half, half, -edge}}) {
       scene.camera.eye = eye;
-      // an odd number of pixels, so that some rays have components of 0
+      // The view is along an axis, and width and height are odd, so that the rays of the middle row
+      // and the middle column have components of 0.
       scene.camera.forward = {0, 0, -1};
       scene.camera.up = {0, 1, 0};
       scene.width = 17;
@@ -193,7 +195,8 @@ TEST(VulkanPictures, SpeedOfLightReadsTheSameSamplesAsRaycast) {
     double alpha = 0;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
       red += static_cast<double>(image.rgba[i]);
-      alpha -= static_cast<double>(image.rgba[i + 3]);  // the image contains 1 + Σ α
+      // speed_of_light adds each α to the transmittance, so the alpha of a pixel is −Σ α.
+      alpha -= static_cast<double>(image.rgba[i + 3]);
     }
     EXPECT_EQ(red, static_cast<double>(counted.counts.at("samples")));
     EXPECT_EQ(alpha, red / 8);
