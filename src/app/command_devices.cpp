@@ -22,8 +22,8 @@ std::string why(const measure::Broken& broken) {
 }
 
 // `greeted` contains the devices that were opened, and `broken` the devices that cannot be used.
-// `compilers` contains the ids of devices that only compile code, for GPUs that are not present,
-// and that were not opened.
+// `compilers` contains the ids of compile-only devices, which compile code for GPUs that this
+// machine does not have. These devices are listed without being opened.
 struct Devices {
   std::vector<Greeting> greeted;
   std::vector<measure::Broken> broken;

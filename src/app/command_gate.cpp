@@ -76,9 +76,10 @@ std::vector<std::string> gate_job() {
   return plans;
 }
 
-// Returns the plans to judge, in their current definition. If the user names no plans, leaves out
-// the default plans that have none of the requested checks. `--without cost` also leaves out the
-// plans that count instructions, and `--without code` the plans that only compile code.
+// Returns the plans to judge, as they are defined now, which may differ from their definition when
+// the run was measured. If the user names no plans, leaves out the default plans that have none of
+// the requested checks. `--without cost` also leaves out the plans that count instructions, and
+// `--without code` the plans that only compile code.
 std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
   record::Checks asked;
   for (const std::string& name : arguments.checks) asked.insert(record::check(name));
@@ -130,8 +131,8 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
   return request;
 }
 
-// Compares each device's current results with its results under the base build or driver. The
-// baselines are not used.
+// Compares the results of each device with its results under another build or driver, which the
+// option --base selects. The baselines are not used.
 core::ExitCode judge_by_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = measure::name_a_compiler(arguments.devices)

@@ -93,9 +93,10 @@ std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Tri
 
 // Draws the frame once more, in one process, and writes all of the driver's input to the folder
 // "dump": device code, options, buffers and a C program. If there is an image, pixel.txt contains
-// the history of its first wrong pixel or of its worst pixel. If the driver crashes before it
-// receives the input, nothing is written. If the frame hangs, its input has already been written
-// when the process is killed. `limit` is the frame's time limit.
+// the history of one of its pixels: the first pixel that shows a wrong particle or a wrong depth
+// or, if there is none, the pixel with the largest ratio of error to bound. If the driver crashes
+// before it receives the input, nothing is written. If the frame hangs, its input has already been
+// written when the process is killed. `limit` is the frame's time limit.
 std::vector<std::string> write_dump_of(const OneFrame& frame, const ReduceArguments& arguments,
                                        const reduction::Trial& trial, measure::Truths& truths,
                                        std::optional<std::chrono::seconds> limit,
@@ -196,7 +197,7 @@ core::ExitCode reduce_frame(const Search& search, const reduction::Failure& firs
   return publish(search, report, report::text_of(report.changes));
 }
 
-// The configurations that a plan draws up to a frame, and their names.
+// The configurations that a plan draws before a given frame.
 class Beginning {
  public:
   // Throws core::InputError if the plan does not contain the frame.

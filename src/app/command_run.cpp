@@ -133,8 +133,8 @@ void add_run_commands(Commands& commands) {
           "the fastest levels")
       ->excludes("--untimed");
 
-  // All devices add their measurements to one run, because `resume` is set. `test-start` has
-  // already deleted the runs of earlier tests.
+  // Each call of `test-measure` measures one device. All calls add their records to one run,
+  // because `resume` is set. `test-start` has already deleted the runs of earlier tests.
   auto [test, tested] = commands.add("test-measure", "Measure one device as a CTest fixture",
                                      run_as_test, {.resume = true, .brief = true});
   add_run_options(test, tested);

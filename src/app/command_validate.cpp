@@ -280,8 +280,8 @@ std::vector<judge::Repetition> repeat(const ValidateArguments& arguments, const 
   return repetitions;
 }
 
-// Compares the repetitions. Prints the result and writes it to repeats.jsonl, with one line per
-// case.
+// Compares the repetitions. Prints the result and writes it to repeats.jsonl, with one line for
+// each case (one configuration of a plan on one device).
 void tell_repeats(const ValidateArguments& arguments,
                   const std::vector<judge::Repetition>& repetitions, Validation& first) {
   const std::vector<judge::RepeatedCase> cases = judge::repeated_cases(repetitions);

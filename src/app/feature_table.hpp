@@ -11,7 +11,7 @@
 
 namespace triptych::app {
 
-// The results by device id.
+// The results of all feature probes, by device id.
 using FeatureTable = std::map<std::string, std::vector<measure::FeatureRow>>;
 
 // Probes the devices. `only` is the name of one probe; if it is empty, all probes run. Devices that

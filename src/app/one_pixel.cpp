@@ -58,8 +58,9 @@ void add_part_of_step(accuracy::TakenSample& step, const accuracy::TakenSample& 
   step.gathered = part.gathered;
 }
 
-// Converts the recorded samples. The preintegrated quadrature divides a step into parts, which are
-// recorded with the midpoint of the step. All parts of a step are merged into one sample.
+// Converts the recorded samples. The preintegrated quadrature divides a step into parts, and
+// records each part with the midpoint of the whole step as its position. Therefore consecutive
+// parts with the same position are merged into one sample.
 std::vector<accuracy::TakenSample> taken_samples(const technique::RayTrace& trace) {
   std::vector<accuracy::TakenSample> samples;
   for (const technique::TracedSample& traced : trace.samples) {

@@ -16,8 +16,9 @@ namespace triptych::app {
 [[nodiscard]] measure::PixelPlace parse_pixel(std::string_view text);
 
 // Prints the pixel's history (shortened if it is long), and writes the complete history to
-// pixel.txt in the folder `out`. Returns ExitCode::regression if an operation differs from the
-// reference. Throws NotSupported if the suite cannot trace the pixel.
+// pixel.txt in the folder `out`. Returns ExitCode::regression if a sample of the volume or a
+// visible surface differs from the reference renderer's. Throws NotSupported if the suite cannot
+// trace the pixel.
 [[nodiscard]] core::ExitCode show_pixel(measure::SuiteWithTruth& suite,
                                         const measure::FrameInProcess& drawn,
                                         const accuracy::TruthPair& truth,

@@ -1,5 +1,5 @@
 #pragma once
-// Functions shared by all commands that judge.
+// Functions shared by all commands that judge the runs in a store.
 
 #include <string>
 #include <vector>
@@ -37,7 +37,7 @@ void require_store(const std::filesystem::path& file);
                                             const judge::GateRequest& request);
 
 // Returns a request to judge a plan on all devices with all of the plan's checks, using the
-// reference images in `truths` and today's date.
+// reference images in `truths`. Waivers that have expired by today's date do not apply.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const std::string& plan);
 // Like the overload above, but for the plan as it is currently defined, including the
 // configurations that the run should contain.

@@ -30,10 +30,10 @@ struct Range {
   char32_t first;
   char32_t last;
 };
-// Sorted ranges of Unicode 15: all characters of the general categories Cc, Zl and Zp; those of Cf
-// (format characters), except the joiners, the Egyptian hieroglyph controls and the characters with
-// a glyph, such as U+0600; the supplementary variation selectors, which are invisible; and the
-// noncharacters U+FFFE and U+FFFF, which XML forbids.
+// Sorted ranges of hidden characters in Unicode 15: all characters of the general categories Cc, Zl
+// and Zp; the format characters (category Cf), except the joiners, the Egyptian hieroglyph controls
+// and the characters with a glyph, such as U+0600; the supplementary variation selectors, which are
+// invisible; and the noncharacters U+FFFE and U+FFFF, which XML forbids.
 constexpr std::array<Range, 15> hidden{{
     {0x00, 0x1F},        // C0
     {0x7F, 0x9F},        // DEL, C1

@@ -13,8 +13,9 @@
 namespace triptych::reduction {
 namespace {
 
-// A level that contains a size. "generate:mandelbulb:96" has the name "generate:mandelbulb:" and
-// the sides {96}, and "256x128" has the name "" and the sides {256, 128}.
+// A level that ends with the side lengths of an image or a volume. "generate:mandelbulb:96" has the
+// name "generate:mandelbulb:" and the sides {96}, and "256x128" has the name "" and the sides {256,
+// 128}.
 struct Sized {
   std::string name;
   std::vector<int> sides;

@@ -27,7 +27,7 @@ class SequenceSearch {
     for (std::size_t length = 1; length < count; length *= 2) {
       if (attempt(last(count, length))) return true;
     }
-    // The whole list is tried even if no frames are left.
+    // The whole list is tried even if the limit on the number of frames has been reached.
     frames_left_ = std::max(frames_left_, count + 1);
     return count > 0 && attempt(last(count, count));
   }

@@ -1,6 +1,7 @@
 #pragma once
-// Finds out which earlier work makes a frame fail that is correct if it is drawn alone, by delta
-// debugging (Zeller and Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002).
+// A frame may be correct if it is drawn alone, but fail if other frames are drawn before it. The
+// function in this file finds the earlier frames that make it fail, by delta debugging (Zeller and
+// Hildebrandt, "Simplifying and Isolating Failure-Inducing Input", 2002).
 
 #include <cstddef>
 #include <functional>

@@ -15,8 +15,8 @@
 
 namespace triptych::reduction {
 
-// The results of drawing the first frame twice. It is drawn twice because a failure that does not
-// repeat cannot be reduced.
+// The results of drawing the frame with which a search begins. It is drawn twice if it fails,
+// because a failure that does not repeat cannot be reduced.
 struct FirstFrames {
   std::optional<Failure> first;  // nullopt: the frame is correct and was drawn only once
   std::optional<Failure> again;
@@ -34,8 +34,8 @@ class Trial {
   // Throws the same exceptions as measure::SingleFrames::draw().
   std::optional<Failure> operator()(const measure::Configuration& configuration);
 
-  // Draws the first frame, and draws it again if it fails. Throws record::NotMeasured if it was
-  // skipped.
+  // Draws `start`, the configuration with which a search begins, and draws it again if it fails.
+  // Throws record::NotMeasured if it was skipped.
   [[nodiscard]] FirstFrames first(const measure::Configuration& start);
 
   // Draws the configurations of `before` and then `configuration`, all in a new worker process, and

@@ -14,8 +14,10 @@
 namespace triptych::view {
 namespace {
 
-// Returns the sum of both bounds and of the distance between the reference values, rounded up. Two
-// equal infinities, such as two depths without a surface, have the distance 0.
+// Returns the bound on the difference between two correct images in one value of a pixel, rounded
+// up. It is the sum of the images' own bounds, `a` and `b`, and the difference between their
+// reference values. Two equal infinities, such as two depths without a surface, have the difference
+// 0.
 float sum_of_bounds(float a, float b, float truth_a, float truth_b) {
   const double apart = truth_a == truth_b
                            ? 0

@@ -1,5 +1,5 @@
 #pragma once
-// The command that draws the content of a column.
+// Composes the command line that reproduces the content of one column of the window.
 
 #include <optional>
 #include <string>

@@ -27,9 +27,10 @@ bool counts_instructions(const std::map<std::string, double>& statistics) {
       statistics, [](const auto& each) { return each.first.starts_with("Instruction"); });
 }
 
-// The drivers that do not report the number of instructions compile with LLVM. The pass of LLVM
-// that inserts waits depends on memory addresses, so the number of waits differs from run to run.
-// For these drivers, waits are therefore neither counted nor compared.
+// Counts the instructions in a disassembly, and adds the counts to the statistics. `reported`
+// states whether the driver itself reports the number of instructions. If it does not, waits are
+// neither counted nor compared, because these drivers compile with LLVM, whose placement of waits
+// differs from run to run: it depends on the addresses of objects in the compiler's memory.
 void add_counted(std::string_view assembly, bool reported,
                  std::map<std::string, double>& statistics) {
   const auto counts = count_amd_instructions(assembly);

@@ -11,10 +11,10 @@ namespace triptych::measure {
 
 class CompiledCode {
  public:
-  // Adds an executable; a second executable with the same name becomes "NAME#2". If Triptych can
-  // parse the disassembly, it counts the instructions and adds these statistics: "Instructions"
-  // (without waits) if the driver does not report them, and "Loop …" for the loop that samples the
-  // volume.
+  // Adds an executable (a compiled shader stage or kernel); a second executable with the same name
+  // becomes "NAME#2". If Triptych can parse the disassembly, it counts the instructions and adds
+  // two kinds of statistics: "Instructions" (without waits), unless the driver reports the number
+  // of instructions itself, and "Loop …" for the loop that samples the volume.
   void add(const std::string& name, std::map<std::string, double> statistics, std::string assembly);
 
   // Throws core::NotSupported if the compiler reported nothing.

@@ -27,8 +27,9 @@ struct VolumeWork {
   technique::RaycastOptions options;
 };
 
-// A scene with particles. Its images contain depth (Z, the distance along the view axis) and ids.
-// Its counters are those in technique::particle_counts.
+// A scene with particles. In addition to colour, its images contain for each pixel the depth (Z,
+// the distance along the view axis) and the id of the visible particle. Its counters are those in
+// technique::particle_counts.
 struct ParticleWork {
   scene::ParticleScene scene;
   technique::ParticleOptions options;
@@ -52,9 +53,9 @@ struct Work {
   std::variant<VolumeWork, ParticleWork> scene;
 };
 
-// What a frame is drawn for. Each frame has only one purpose, so that counting never affects times.
-// The device code has two builds: the timed build, which counts nothing, and the counting build,
-// which also writes Triptych's counters.
+// The purpose for which a frame is drawn. Each frame has only one purpose, so that counting never
+// affects times. The device code has two builds: the timed build, which counts nothing, and the
+// counting build, which also writes Triptych's counters.
 enum class Purpose : std::uint8_t {
   timing,      // nothing is counted
   statistics,  // pipeline statistics are queried; the frame's time is never used
@@ -81,7 +82,7 @@ class Prepared {
   // Overwrites all outputs of a frame (image, ids, depth, counters) with values that no frame
   // produces. Until the next frame is drawn, image() returns NaN in every channel. Without this
   // function, the outputs of an earlier frame would remain in place if a frame is not drawn, and
-  // would seem correct. It is never called within the timed or counted part of a frame.
+  // would seem correct. poison() is never called within the timed or counted part of a frame.
   virtual void poison() = 0;
   // Draws one frame and waits for it without spinning. Throws ApiError, DeviceLost or NotDrawn.
   [[nodiscard]] virtual Frame frame(Purpose purpose) = 0;
@@ -104,9 +105,9 @@ struct VolumeKind {
   scene::VoxelFormat native = scene::VoxelFormat::f32;
   std::array<int, 3> size{1, 1, 1};
   std::optional<technique::Sampler> sampler = std::nullopt;  // the sampler set by the plan, if any
-  // Whether one filtered value is sufficient for each sample. This is not the case for shading, for
-  // the quadrature `cells` (which needs the eight voxels around a sample), for double precision,
-  // and for volumes that are drawn in parts (technique/volume/parts.hpp).
+  // Whether one value from the trilinear filter is sufficient for each sample. This is not the case
+  // for shading, for the quadrature `cells` (which needs the eight voxels around a sample), for
+  // double precision, and for volumes that are drawn in parts (technique/volume/parts.hpp).
   bool filter_suffices = true;
   [[nodiscard]] bool may_be_packed() const {
     return sampler.value_or(technique::Sampler::packed) == technique::Sampler::packed;
@@ -124,7 +125,8 @@ struct Rasterizer {
   double largest_point = 0;  // largest point in pixels, without margin; larger sprites become quads
 };
 
-// The compiler's report about the timed build.
+// The compiler's report about the timed build (the build of the device code that writes no
+// counters).
 struct Compiled {
   record::Code code;
   std::map<std::string, std::string> listings;  // disassemblies by content hash
@@ -146,8 +148,9 @@ class Device {
   [[nodiscard]] virtual VolumePath default_path(const VolumeKind& volume) const = 0;
 
   // Returns the largest error of this device's trilinear filter, as a fraction of the difference
-  // between neighbouring voxels. A probe measures this error when the device is opened. For
-  // Sampler::manual, it is 0 except for round-off.
+  // between neighbouring voxels. A probe measures the error, but the result is at most
+  // technique::allowed_filter_error(), so that a faulty filter does not widen the error bounds. The
+  // result is 0 for all samplers except Sampler::hardware, because they do not use the filter.
   [[nodiscard]] virtual double filter_weight_error(const VolumePath& path) const = 0;
 
   // Returns nullopt if the device has no rasterizer.

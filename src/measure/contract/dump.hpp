@@ -24,8 +24,8 @@ std::string write_dump(std::string_view name, std::string_view extension,
 std::string write_dump(std::string_view name, std::string_view extension, std::string_view content,
                        const std::string& about);
 
-// Writes the script compile.sh to the folder. It compiles the device code in the folder with public
-// tools.
+// Writes the script compile.sh to the folder. The script checks the device code in the folder with
+// tools that do not belong to the driver: spirv-val, glslangValidator and clang.
 void write_compile_script(const std::filesystem::path& folder);
 
 }  // namespace triptych::measure

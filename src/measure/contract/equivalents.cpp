@@ -12,10 +12,10 @@
 namespace triptych::measure {
 namespace {
 
-// An upper bound on the rounding error of a pixel's alpha. Alpha is computed in floats as
-// 1 − T + T·background, where T is the transmittance of the ray and `background` is the alpha of
-// the background. This takes three roundings of numbers up to 1, each with an error of at most half
-// of 2⁻²³.
+// An upper bound on the rounding error of a pixel's alpha. Alpha is computed in floats as 1 − T +
+// T·background, where T is the transmittance of the ray and `background` is the alpha of the
+// background. The three operations round numbers up to 1, so each of them has an error of at most
+// 2⁻²⁴. The sum of these errors is less than 2⁻²².
 constexpr double alpha_rounding = 0x1.0p-22;
 
 std::string reason_for(const PlainWork& known, const PlainWork& wanted, double transmittance) {

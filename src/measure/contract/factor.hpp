@@ -19,8 +19,8 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 [[nodiscard]] Factor number(std::string name, double minimum, double maximum, std::string standard,
                             Decides decides, std::string summary,
                             std::vector<std::string> words = {});
-// Creates a factor whose values are strings that Suite::check() checks. The factor determines the
-// image.
+// Creates a factor whose values are strings that Suite::check() checks. Such a factor counts as a
+// part of the scene (Factor::of_scene), because its value determines the image.
 [[nodiscard]] Factor text(std::string name, std::string standard, std::string summary);
 
 // Returns the factor `technique` of a suite. Its levels are the suite's techniques, in the order of
@@ -34,7 +34,8 @@ enum class Decides : std::uint8_t { the_picture, how_it_is_made };
 // Returns the value of a numeric factor.
 [[nodiscard]] double as_number(const Configuration& configuration, const std::string& factor);
 
-// Returns the value of the key "camera" in frame.json.
+// Returns the camera as it is written to the key "camera" of frame.json, which `triptych render`
+// writes for other programs.
 [[nodiscard]] nlohmann::json camera_json(const scene::Camera& camera);
 
 }  // namespace triptych::measure

@@ -18,8 +18,8 @@ struct ProbedFeature {
   std::string detail = {};  // the error, or the reason for the skip
 };
 
-// Returns the verdict on a probe that should produce `expected` values, of which `right` are
-// correct.
+// Returns the verdict on a probe that produced `expected` values, of which `right` are correct.
+// `size` describes the size of the probe, such as "100000 draws".
 [[nodiscard]] ProbedFeature judged_feature(std::uint64_t right, std::uint64_t expected,
                                            std::string size);
 

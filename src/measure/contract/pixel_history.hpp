@@ -25,9 +25,9 @@ inline constexpr const char* not_traced =
     "the history of a pixel cannot be recorded with quadrature=cells; use quadrature=midpoint or "
     "quadrature=preintegrated";
 
-// A prepared work that can also draw a frame with a build of its device code that records the
-// samples of one pixel. This build is the counting build (the build that writes Triptych's
-// counters) with additional code for recording.
+// A prepared work whose device code has an additional build, which records the samples of one
+// pixel. This build is the counting build (the build that writes Triptych's counters) with
+// additional code for recording.
 class TracesPixel {
  public:
   TracesPixel() = default;

@@ -39,8 +39,9 @@ struct Factor {
   // True for a factor that was added to the suite after scene keys had been stored. To keep those
   // keys valid, a scene key contains such a factor only if it does not have its default value.
   bool silent_default = false;
-  // The levels that "auto" stands for in a plan, unless "auto" is the default value. All of these
-  // levels are measured, and the fastest is reported (measure/request/fastest.hpp).
+  // The levels that "auto" stands for in a plan. All of these levels are measured, and the fastest
+  // is reported (measure/request/fastest.hpp). Must be empty if the default value is "auto", with
+  // which the device chooses the level.
   std::vector<std::string> automatic = {};
   std::string summary;  // one line with unit and source, for --help and docs
 };
@@ -87,9 +88,9 @@ class Suite {
   // the device. The suite keeps the most recently loaded data set, so that consecutive
   // configurations of a plan can share it.
   [[nodiscard]] virtual Work work(Configuration& configuration, const Device& device) = 0;
-  // Returns the plain work of a configuration whose "auto" levels have been replaced. An
-  // implementation may replace a level only if all samples, fragments and counts stay the same. It
-  // is not sufficient that the image stays the same.
+  // Returns the plain work of a configuration (see PlainWork). All "auto" levels of the
+  // configuration have been replaced. An implementation may replace a level only if all samples,
+  // fragments and counts stay the same. It is not sufficient that the image stays the same.
   [[nodiscard]] virtual PlainWork plain(const Configuration& configuration, const Work&) const {
     return {.levels = configuration};
   }
@@ -110,11 +111,12 @@ class Suite {
   OnLoading on_loading_;
 };
 
-// The image to which a scene converges as its sampling is refined. The difference between an image
-// and its limit contains the sampling error and all other errors.
+// The limit image of a scene, to which its images converge as the sampling is refined. The
+// difference between an image and the limit image contains the sampling error and all other errors.
 struct Limit {
   core::Image image;
-  // The maximum distance of each pixel from the exact limit, in all four channels.
+  // The largest possible difference between `image` and the exact limit image, for each pixel and
+  // in each of the four channels.
   core::Image uncertainty;
 };
 
@@ -151,14 +153,14 @@ class SuiteWithTruth : public Suite {
   // as Suite::work().
   [[nodiscard]] virtual std::string data_hash(const Configuration&) { return {}; }
 
-  // Returns a key. Configurations with the same key share their limit. The key is empty if there is
-  // no limit.
+  // Returns a key. Configurations with the same key share their limit image (see Limit). The key is
+  // empty if there is no limit image.
   [[nodiscard]] virtual std::string limit_key(const Configuration&) { return {}; }
-  // Returns the limit of a configuration. Its limit_key() must not be empty.
+  // Returns the limit image of a configuration. Its limit_key() must not be empty.
   [[nodiscard]] virtual Limit limit(const Configuration&) { return {}; }
   // Returns the image that results from the closed-form solution, if the scene has one. It differs
-  // from the limit by the errors of the voxel grid and of the lookup tables, whose resolution is
-  // finite.
+  // from the limit image (see Limit) by the errors of the voxel grid and of the lookup tables,
+  // whose resolution is finite.
   [[nodiscard]] virtual std::optional<core::Image> closed_form(const Configuration&) {
     return std::nullopt;
   }

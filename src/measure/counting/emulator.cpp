@@ -95,7 +95,8 @@ std::vector<std::string> emulated(const Emulator& emulator, std::vector<std::str
 }
 
 // PoCL as Debian builds it contains one library of built-in functions for each set of CPU features.
-// The library that it selects also determines the CPU for which it compiles kernels.
+// The environment variable selects the library, which also determines the CPU for which PoCL
+// compiles kernels.
 std::optional<std::vector<std::string>> compiles_for_emulator(std::string_view device) {
   if (!device.starts_with("opencl:pocl") || processor_name() != "AVX2") return std::nullopt;
   return std::vector<std::string>{"POCL_KERNELLIB_NAME=avx2"};

@@ -30,10 +30,10 @@ struct Emulator {
                                                 std::vector<std::string> command,
                                                 std::string_view device_files);
 
-// Returns environment variables as "NAME=VALUE" with which the driver of this device, in a process
-// that runs without the emulator, compiles the code that it would compile under the emulator.
-// Returns nullopt if the driver has no such variable, or if no value of the variable selects the
-// simulated CPU.
+// Some drivers compile for the CPU that an environment variable names. Returns the variables, as
+// "NAME=VALUE", with which the driver of this device compiles for the simulated CPU even if the
+// process runs without the emulator. Returns nullopt if the driver has no such variable, or if no
+// value of the variable selects the simulated CPU.
 [[nodiscard]] std::optional<std::vector<std::string>> compiles_for_emulator(
     std::string_view device);
 

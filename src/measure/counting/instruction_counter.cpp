@@ -52,8 +52,9 @@ record::Counts InstructionCounter::between(const Snapshot& before, const Snapsho
   return counts;
 }
 
-// This thread itself executes a few hundred instructions each time it falls asleep and wakes up.
-// Therefore fewer than `own` instructions between two readings count as quiet.
+// Reads the counter again and again. This thread itself executes a few hundred instructions each
+// time it falls asleep and wakes up. Therefore the process counts as quiet if it has executed fewer
+// than `own` instructions since the previous reading.
 void InstructionCounter::wait_until_quiet() const {
   constexpr std::uint64_t own = 2000;
   constexpr std::chrono::milliseconds pause{2};

@@ -52,7 +52,8 @@ static UInt owner_at(Addr address) {
   return is_of_the_runtime(VG_(strrchr)(path, '/') + 1) ? TRIPTYCH_LIBC : TRIPTYCH_DRIVER;
 }
 
-/* Adds code for counts[which] += amount to the block. It is inlined, because a call would take longer than the block. */
+/* Adds code to the end of a translated block, which computes counts[which] += amount. The code does not call a function,
+ * because a call would take longer than the rest of the block. */
 static void add(IRSB* block, UInt which, UInt amount) {
   if (amount == 0) return;
   IRExpr* const place = mkIRExpr_HWord((HWord)&counts[which]);
@@ -161,7 +162,8 @@ static Bool is_allocation(Addr address) {
   return False;
 }
 
-/* Adds the number of executed instructions to the counts before each exit from the block. */
+/* Valgrind calls this function for each block of code that it translates. Adds code that counts the executed instructions
+ * of the block, before each exit from it. */
 static IRSB* instrument(VgCallbackClosure* closure, IRSB* in, const VexGuestLayout* layout,
                         const VexGuestExtents* extents, const VexArchInfo* host, IRType guest_word,
                         IRType host_word) {

@@ -52,9 +52,9 @@ Shard PlanChoice::part() const {
 
 namespace {
 
-// Reads the names and keys in a file, which may be the output of `triptych list`. Each line begins
-// with a name or a key, and text after two spaces is ignored. Lines that begin with '#' are
-// comments.
+// Reads a list of configurations from a file, which may be the output of `triptych list`. Each line
+// begins with the name or the key of a configuration, and text after two spaces is ignored. Lines
+// that begin with '#' are comments.
 std::set<std::string> read_cases(const std::string& file) {
   std::set<std::string> cases;
   std::istringstream lines(core::read_text(file));

@@ -11,9 +11,9 @@
 namespace triptych::measure {
 namespace {
 
-// Returns the rank of a factor by the time that a change of its level takes. Rank 0, the slowest,
-// is for loading data (which includes mapping its values), 1 for building a pipeline, 2 for
-// resizing the viewport, and 3 for moving the camera.
+// Returns how fast a change of the factor's level is, from 0 (slowest) to 3: 0 if data must be
+// loaded, or their values mapped again; 1 if a pipeline must be built; 2 if only the viewport
+// changes; 3 if only the camera moves.
 int speed_of(const Factor& factor) {
   if (factor.name == "data" || factor.name == "window" || factor.name == "mapping") return 0;
   if (factor.name == "viewport") return 2;

@@ -19,11 +19,12 @@ namespace triptych::measure {
 using ValuesByFactor = std::map<std::string, std::vector<std::string>>;
 
 // Returns the factors of the suite, sorted by the time that a change of their level takes, longest
-// first. The first factors vary least often.
+// first. In the order of measurement, the first factors change least often.
 [[nodiscard]] std::vector<const Factor*> slowest_first(const Suite& suite);
 
-// The combinations of one or more blocks of values, without duplicates, one data set after the
-// other. The blocks are the plan's own values and the mappings under `also` (plan_yaml.hpp).
+// Generates the combinations of one or more blocks of values, without duplicates. All combinations
+// with one data set come before those with the next data set. The blocks are the plan's own values
+// and the mappings under `also` (plan_yaml.hpp).
 class Combinations {
  public:
   using Use = std::function<void(const Configuration&)>;

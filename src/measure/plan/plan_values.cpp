@@ -79,7 +79,8 @@ std::string canonical_text(const Factor& factor, const PlacedText& value) {
 }
 
 std::string canonical(const Suite& suite, const Factor& factor, const PlacedText& value) {
-  // A factor of any kind may have the default "auto", so a plan may also write it explicitly.
+  // A plan may write the default of a factor even if it is "auto", which is not one of the factor's
+  // levels.
   if (value.text == factor.standard) return standard_of(factor);
   std::string text;
   switch (factor.kind) {
@@ -105,8 +106,9 @@ bool stands_for_several(const Factor& factor, const PlacedText& value) {
   return value.text == "auto" && !factor.automatic.empty();
 }
 
-// Replaces "PATH:*/n" in a text factor by PATH:0/n to PATH:(n−1)/n, and "auto" by the factor's
-// automatic levels. Each new value inherits the place of the text that it replaces.
+// Replaces a value such as "orbit_y:*/8" in a text factor by "orbit_y:0/8" to "orbit_y:7/8", and
+// "auto" by the factor's automatic levels. Each new value gets the place (line and column) of the
+// text that it replaces.
 std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<PlacedText>& values) {
   constexpr std::string_view all = ":*/";
   constexpr int most = 10'000;

@@ -16,9 +16,9 @@
 namespace triptych::measure {
 namespace {
 
-// Collects the library's own JSON output in a string. Removes numbers that JSON cannot represent,
-// such as the coefficient of variation of times that are all 0, because the library would print
-// them as invalid JSON.
+// Collects the JSON output of Google Benchmark in a string. Removes numbers that JSON cannot
+// represent, such as the coefficient of variation of times that are all 0, because Google Benchmark
+// would print them as invalid JSON.
 class StringReporter : public benchmark::JSONReporter {
  public:
   StringReporter() {
@@ -75,8 +75,8 @@ BenchmarkResult run_registered(const std::string& name, int frames) {
 }
 
 // Stores the first exception, so that it can be rethrown after the loop. The remaining iterations
-// do nothing. This is necessary because the library does not handle exceptions, and aborts if one
-// of several repetitions reports an error.
+// do nothing. This is necessary because Google Benchmark does not handle exceptions, and aborts if
+// one of several repetitions reports an error.
 class Guarded {
  public:
   template <typename Body>
@@ -129,7 +129,7 @@ void initialize_benchmarks() {
   int count = static_cast<int>(arguments.size());
   arguments.push_back(nullptr);
   benchmark::Initialize(&count, arguments.data());
-  // The library has stored a pointer to the program's name in `words`, which is about to be
+  // Google Benchmark has stored a pointer to the program's name in `words`, which is about to be
   // destroyed.
   benchmark::BenchmarkReporter::Context::executable_name = "triptych";
 }

@@ -21,7 +21,8 @@ struct BenchmarkResult {
   nlohmann::json entries;
 };
 
-// The result of one iteration: its time, and further values that become keys of its JSON entry.
+// The result of one iteration: its time, and further values with the keys under which they are
+// added to the JSON entry of the iteration.
 struct IterationTime {
   double ns = 0;
   std::map<std::string, double> facts;

@@ -15,7 +15,7 @@ namespace {
 constexpr int most_frames = 8;
 constexpr int least_frames = 3;
 // The time budget for all calibration frames. A device that is too slow for this budget draws only
-// least_frames.
+// the minimum number of frames, least_frames.
 constexpr double budget_ns = 0.5e9;
 
 // The ratio that is stored for a clock whose time stamps were never written.
@@ -114,8 +114,8 @@ std::unique_ptr<Prepared> prepare_long_enough(Device& device, Work work) {
 }  // namespace
 
 // Checks only the first and the last image, because calibration images are large, and reading an
-// image back may take longer than drawing it. If a frame in between drew nothing, its ratio would
-// be outside the limits for a trusted clock.
+// image back may take longer than drawing it. If a frame in between drew nothing, its ratio of
+// device time to wall time would be outside the limits for a trusted clock.
 record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
   FrameProof proof(prepared);
   const int frames = frames_within_budget(proof.draw(Purpose::timing).wall_ns);
@@ -205,7 +205,8 @@ std::optional<record::DeviceFault> clock_fault(const record::ClockTrust& trust) 
 
 bool plausible(const std::vector<double>& device_ns, const std::vector<double>& wall_ns) {
   if (device_ns.empty() || device_ns.size() != wall_ns.size()) return false;
-  // A timer with a resolution of 1 µs may be wrong by one tick at either end.
+  // A timer with a resolution of 1 µs may be wrong by one tick at either end of a frame, so the
+  // difference of its two readings may be wrong by 2 µs.
   constexpr double tick_ns = 2e3;
   std::size_t low = 0;
   for (std::size_t i = 0; i < device_ns.size(); ++i) {

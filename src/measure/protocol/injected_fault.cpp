@@ -50,8 +50,9 @@ auto named(const Faults& faults, std::string_view name) {
   return found == faults.end() ? std::nullopt : std::optional(found->second);
 }
 
-// Converts a percentage of extra work to a stride: doing one part in `stride` of the work twice
-// adds 1/stride of the work. Returns nullopt if `text` is not a percentage from 0.01 to 100.
+// Converts a percentage of extra work to a stride: if one in every `stride` units of work is done
+// twice, the extra work is 1/stride of the work. Returns nullopt if `text` is not a percentage from
+// 0.01 to 100.
 std::optional<int> stride_of(std::string_view text) {
   double percent = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), percent);

@@ -27,10 +27,10 @@ struct WarmUp {
   double fastest_ns = std::numeric_limits<double>::infinity();
 };
 
-// Draws the warm-up frames, during which drivers compile code, fault in pages and wake threads. If
-// frames are very short, more frames than the minimum are drawn, until their total time is a tenth
-// of the loop's time. The time of the fastest frame determines how many frames fill the loop, so
-// that the loop does not end too early.
+// Draws the warm-up frames, during which drivers compile code, fault in pages and wake threads.
+// Very short frames are repeated beyond the minimum number, until their total time is a tenth of
+// the time of the wall-clock loop that follows. The fastest warm-up frame determines how many
+// frames the wall-clock loop draws, so that the loop does not end too early.
 WarmUp warm_up(FrameProof& proof, const Protocol& protocol) {
   WarmUp result;
   const double enough_ns = protocol.least_loop_ns / 10;
@@ -54,10 +54,11 @@ bool is_trusted(technique::Work kind, const std::vector<record::ClockTrust>& clo
   });
 }
 
-// Draws the timed frames. If the device reported no time for one of the frames, all device times
-// are discarded, because they could no longer be paired with the wall times. In the benchmark's
-// entries, the real time is the wall time. Device time is an additional key, because whether device
-// times are plausible is known only after the last frame.
+// Draws the timed frames, and returns the benchmark's JSON entries. The real time of an entry is
+// the wall time, and the device time is an additional key, because whether device times are
+// plausible is known only after the last frame. If the device reported no time for one of the
+// frames, the record contains no device times, because they could no longer be paired with the wall
+// times.
 core::Json time_into(record::Record& record, FrameProof& proof, int frames, const std::string& name,
                      double& work_ns) {
   std::vector<std::optional<double>> device_ns;
@@ -82,8 +83,9 @@ core::Json time_into(record::Record& record, FrameProof& proof, int frames, cons
   return std::move(result.entries);
 }
 
-// Adds the counts to every entry that describes a frame, because all frames have the same counts.
-// Does not add them to the entries that describe the spread of times (stddev, cv).
+// Adds the counts to the benchmark's JSON entries, except to the entries that describe the spread
+// of times (stddev, cv). An entry for a mean or a median has the same counts as an entry for one
+// frame, because all frames have the same counts.
 void add_counts(core::Json& entries, const record::Counts& counts) {
   for (core::Json& entry : entries) {
     const std::string aggregate = entry.value("aggregate_name", "");

@@ -34,25 +34,26 @@ struct Protocol {
   bool counted = false;
   bool picture = true;  // whether the image of a counted frame is recorded
   // If true, a configuration whose instructions are to be counted is first drawn without the
-  // emulator and without a result, so that the driver stores the compiled code in its cache
-  // (run/ahead_compiler.hpp).
+  // emulator, only so that the driver stores the compiled code in its cache
+  // (run/ahead_compiler.hpp). The result is discarded.
   bool ahead = false;
   // If true, the compiler's report about the device code is recorded, and no frame is drawn.
   bool compiled = false;
   // If false, a configuration that does exactly the same work as an earlier configuration copies
   // the results of the earlier configuration (measure/contract/equivalents.hpp).
   bool measure_every = false;
-  // Whether a frame with another camera is drawn before the first frame. If so, the first frames
-  // may differ where surfaces are equally far away. The worker sets this field itself. It is not
-  // part of any message.
+  // Whether a frame with another camera is drawn before the first frame. The first frames then draw
+  // some particles in another order than later frames, so a pixel in which several surfaces are
+  // equally far away may differ between them. The worker sets this field itself. It is not part of
+  // any message.
   bool camera_jumps = false;
 
   [[nodiscard]] bool has_loop() const noexcept { return timed && least_loop_ns > 0; }
 };
 
 // The protocol for times that are displayed but not judged. Timing begins with the third frame, as
-// in count_instructions(), and there is no loop. Five frames are sufficient to decide whether
-// device times are plausible (measure/protocol/clock.hpp).
+// in count_instructions(), and there is no wall-clock loop. Five frames are sufficient to decide
+// whether device times are plausible (measure/protocol/clock.hpp).
 inline constexpr Protocol brief_protocol{
     .warm_up_frames = 2, .timed_frames = 5, .least_loop_ns = 0, .most_loop_frames = 1};
 
@@ -63,9 +64,10 @@ struct Measurement {
   core::Image image;
 };
 
-// Measures one prepared technique by the protocol. Google Benchmark runs the timed loop.
-// `work_kind` selects the clock in `clocks`, and `name` becomes the name of the benchmark. If there
-// is a loop, the energy is measured with `meters` in a second loop.
+// Measures one prepared technique by the protocol. Google Benchmark runs the timed frames and the
+// wall-clock loop. `work_kind` selects the clock in `clocks`, and `name` becomes the name of the
+// benchmark. If the protocol contains the wall-clock loop, the energy is measured with `meters` in
+// a second loop.
 [[nodiscard]] Measurement measure(Prepared& prepared, const Protocol& protocol,
                                   technique::Work work_kind,
                                   const std::vector<record::ClockTrust>& clocks,

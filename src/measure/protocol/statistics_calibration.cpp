@@ -263,7 +263,8 @@ record::StatisticWorth calibration_verdict(const std::vector<CalibrationReading>
   }
   const auto [low, high] = std::ranges::minmax(readings, {}, multiple);
   if (low.first == std::uint64_t{0}) return differences(readings);
-  // Compares the ratios by cross-multiplication, which avoids rounding.
+  // Compares the ratios of the reported count to the expected count in all scenes.
+  // Cross-multiplication avoids rounding.
   const bool same_multiple =
       std::ranges::all_of(readings, [&first = readings.front()](const CalibrationReading& each) {
         return *each.first * first.expected == *first.first * each.expected;

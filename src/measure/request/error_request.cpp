@@ -40,8 +40,8 @@ std::vector<std::string> levels_of(const Suite& suite, std::string_view name) {
   return levels;
 }
 
-// Returns the name of a scene, "camera=…,data=…", which contains only factors whose levels the
-// request does not choose.
+// Returns the name of a scene, "camera=…,data=…". The name does not contain the factors whose
+// levels the request chooses.
 std::string scene_of(const Suite& suite, Configuration configuration) {
   for (const char* name : chosen_factors) configuration[name] = factor_of(suite, name).standard;
   return configuration_key(suite, configuration);
@@ -57,7 +57,8 @@ std::string text_of_step(double step) {
   return fmt::format("{}", rounded_down(step));
 }
 
-// Finds the candidates for the scenes of a plan.
+// Finds the candidates for the scenes of a plan: configurations that should meet the requested
+// error.
 class Search {
  public:
   Search(SuiteWithTruth& suite, const RequestedError& request, Truths& truths,
@@ -69,7 +70,7 @@ class Search {
         limits_{factor_of(suite, "step").minimum, factor_of(suite, "step").maximum},
         step_error_(accuracy::step_share * request.error) {}
 
-  // Adds the candidates for a scene, or the reason why there are none.
+  // Adds the candidate configurations for a scene, or the reason why there are none.
   void add(const Configuration& scene, ErrorRequest& result) {
     const std::string name = scene_of(suite_, scene);
     const accuracy::LimitPicture* limit = truths_.limit_of(record_of(scene));
@@ -143,8 +144,8 @@ class Search {
     limit_of_few_pixels_ = suite_.limit(coarse).image;
   }
 
-  // Returns the longest step for the candidate's quadrature. The step is first estimated with a
-  // small image, and then checked with the complete image.
+  // Returns the longest step with which the candidate's quadrature meets the limit step_error_. The
+  // step is first estimated with a small image, and then checked with the complete image.
   [[nodiscard]] Found longest_step(Configuration candidate, const core::Image& limit) {
     const std::string viewport = std::exchange(candidate["viewport"], few_pixels_);
     accuracy::StepLimits limits = limits_;
@@ -177,8 +178,8 @@ class Search {
       candidate["skip"] = skip;
       plan.configurations.push_back(candidate);
     }
-    // The last candidate merges samples, which is possible only with the quadrature `midpoint` and
-    // with skip=bricks.
+    // Adds one more candidate, which merges samples. This is possible only with the quadrature
+    // `midpoint` and with skip=bricks.
     if (candidate.at("quadrature") != "midpoint") return;
     const double merged = rounded_down(accuracy::merging_share * request_.error);
     candidate["skip"] = "bricks";

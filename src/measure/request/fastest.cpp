@@ -92,7 +92,8 @@ std::string praise(const Contestant& contestant, Ruler ruler) {
                      ruler == Ruler::device_clock ? "device" : "wall");
 }
 
-// Removes techniques from the plan that took more than twice as long as the fastest technique.
+// Removes from the plan the techniques that needed more than twice the time (or the instructions)
+// of the fastest technique.
 void keep_in_question(Plan& plan, const FastestAnswer& answer) {
   std::set<std::string> techniques;
   for (const Contestant& each : answer.contestants) {

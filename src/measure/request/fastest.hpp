@@ -55,9 +55,9 @@ struct FastestTried {
     Plan plan, const Suite& suite,
     const std::function<std::vector<record::Record>(const Plan&)>& trial);
 
-// Returns a line with the chosen levels and their advantage over each alternative. An alternative
-// shows no clear difference if its fastest frame did not take longer than the median frame of the
-// chosen levels.
+// Returns a line with the chosen levels and their advantage over each alternative. The line adds
+// "(no clear difference)" to an alternative whose fastest frame did not take longer than the median
+// frame of the chosen levels.
 [[nodiscard]] std::string describe(const FastestAnswer& answer,
                                    const std::set<std::string>& chosen);
 

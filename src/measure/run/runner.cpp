@@ -82,8 +82,8 @@ void refuse_bad_options(const RunOptions& options) {
   for (const InjectedFault& each : options.faults) check_fault(each.fault);
 }
 
-// Combines the progress of parallel parts: adds up the numbers of configurations, and reports the
-// longest remaining time of any part.
+// Combines the progress of the parts of a run that are measured in parallel: adds up the numbers of
+// configurations, and reports the longest remaining time of any part.
 class JointProgress {
  public:
   explicit JointProgress(const PlanRun::Tell& tell) : tell_(tell) {}

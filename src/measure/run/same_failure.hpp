@@ -31,10 +31,11 @@ class SameFailure {
     // `not_tried` is true.
     record::Reason reason;
   };
-  // Returns the predicted outcome of the configuration, or nullopt if it has to be tried. A factor
-  // is irrelevant if two configurations that differ in this factor failed in the same way. A
-  // configuration is predicted to fail like an earlier configuration that crashed, hung or lost the
-  // device if both of these conditions are met:
+  // Returns the predicted outcome of the configuration, or nullopt if it has to be tried. If two
+  // configurations failed in the same way, the factors in which they differ are irrelevant for this
+  // failure, unless a configuration that differs from the second one only in these factors was
+  // measured successfully. A configuration is predicted to fail like an earlier configuration that
+  // crashed, hung or lost the device if both of these conditions are met:
   // - The two configurations differ only in irrelevant factors.
   // - No configuration that differs from the earlier configuration only in irrelevant factors was
   //   measured successfully.

@@ -12,7 +12,7 @@
 
 namespace triptych::measure {
 
-// The arguments of the reference renderer's functions.
+// The scene and the device properties for which the reference renderer computes results.
 struct Described {
   const Configuration& configuration;
   const std::map<std::string, double>& precision;  // Record::precision

@@ -129,7 +129,8 @@ std::string find_library(std::string_view name, std::span<const std::string> ove
 }
 
 // Returns whether this RADV driver reads RADV_FORCE_FAMILY, in which case it needs no stub. Newer
-// releases, such as Mesa 26.1, only contain a message that the variable has been removed.
+// releases, such as Mesa 26.1, do not read it. They contain a message that the variable has been
+// removed, by which this function recognizes them.
 bool forces_family(const std::string& icd, std::span<const std::string> overrides) {
   try {
     const std::string library =

@@ -20,7 +20,8 @@ namespace triptych::measure {
 namespace {
 
 // Returns the parent of a process, or 0 if the process has ended. In /proc/PID/stat, the name of
-// the process is in parentheses and may contain any characters.
+// the process is in parentheses and may contain any characters, so the fields after it begin at the
+// last closing parenthesis.
 pid_t parent_of(pid_t pid) {
   std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
   std::string text;

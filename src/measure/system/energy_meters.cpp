@@ -95,9 +95,9 @@ std::vector<std::string> EnergyMeters::names() const {
   return names;
 }
 
-// Adds the meters of the CPU packages and of their memory. The memory is the only part of a package
-// that the package's own meter does not include. The zone `psys` is not used, because it measures
-// the whole machine including the packages, which would be counted twice.
+// Adds the meters of the CPU packages and of their memory. The memory has its own meter because the
+// package's meter does not include it. The zone `psys` is not used, because it measures the whole
+// machine including the packages, which would then be counted twice.
 void EnergyMeters::find_processors(const fs::path& system) {
   for (const fs::path& zone : entries(system / "class/powercap", "intel-rapl:")) {
     const std::string name = value_of<std::string>(zone / "name").value_or("");

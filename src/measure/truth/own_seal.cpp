@@ -24,7 +24,8 @@ std::string text_of(const std::array<std::uint8_t, 32>& hash) {
   return {hash.begin(), hash.end()};
 }
 
-// Returns the key, or an empty string if there is no key that only this user can read.
+// Returns the secret key with which seals are computed, or an empty string if there is no key that
+// only this user can read.
 std::string read_key(const core::PrivateFolder& folder) {
   const FileDescriptor file(::openat(folder.fd(), "key", O_RDONLY | O_NOFOLLOW | O_CLOEXEC));
   struct stat status {};
@@ -35,9 +36,9 @@ std::string read_key(const core::PrivateFolder& folder) {
   return got == static_cast<ssize_t>(key_bytes) ? key : std::string();
 }
 
-// Creates the key. It is first written to another file, and then linked under its final name. If
-// several processes create keys at the same time, all of them then use the key that was linked
-// first.
+// Creates the secret key with which seals are computed. The key is first written to another file,
+// and then linked under its final name. If several processes create keys at the same time, all of
+// them then use the key that was linked first.
 void make_key(const core::PrivateFolder& folder) {
   std::string key(key_bytes, '\0');
   if (::getrandom(key.data(), key.size(), 0) != static_cast<ssize_t>(key.size())) return;

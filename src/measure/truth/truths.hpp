@@ -36,7 +36,7 @@ class Truths {
   [[nodiscard]] const std::map<std::string, double>& open_counts_of(const record::Record& record);
   // See SuiteWithTruth::data_hash. Returns an empty string if the data is unavailable.
   [[nodiscard]] std::string data_hash_of(const record::Record& record);
-  // Returns the limit of the record's scene, or nullptr if the scene has none.
+  // Returns the limit image of the record's scene, or nullptr if the scene has none.
   [[nodiscard]] const accuracy::LimitPicture* limit_of(const record::Record& record);
   // Returns the image to which a record of the store refers.
   [[nodiscard]] core::Image picture_of(const record::Record& record) const {
@@ -47,8 +47,8 @@ class Truths {
   [[nodiscard]] accuracy::TruthPair find_or_render(const record::Record& record);
   [[nodiscard]] accuracy::LimitPicture find_or_render_limit(const record::Record& record,
                                                             const std::string& key);
-  // Returns the pair of images that is stored for this scene and version. If there is none, calls
-  // `render` and stores the result.
+  // Returns an image and its error bound, which are stored for this scene and version. If there are
+  // none, or if this user did not render them (own_seal.hpp), calls `render` and stores the result.
   [[nodiscard]] accuracy::TruthPair kept(const std::string& scene, const std::string& version,
                                          const std::function<accuracy::TruthPair()>& render);
 

@@ -133,8 +133,8 @@ void list_compiler(const std::string& id, Listing& listing) {
   for (const Broken& each : listing.broken) {
     known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",
                          each.reason);
-    // The last output may state the cause. For example, RADV prints a message and aborts if it does
-    // not support a GPU family.
+    // The last output of a process that failed while it enumerated devices may state the cause. For
+    // example, RADV prints a message and aborts if it does not support a GPU family.
     if (each.ended && !each.ended->last_words.empty()) {
       known += fmt::format(" (its last output: {})", each.ended->last_words);
     }

@@ -83,8 +83,7 @@ struct Refused {
   record::Reason reason;
   // Returns whether the device does not support the request.
   [[nodiscard]] bool unsupported() const { return reason.cause == record::Cause::not_supported; }
-  // Returns whether this is really a refusal. An object without a cause means that the worker sent
-  // its Hello.
+  // Returns whether the worker refused. If it sent its Hello instead, the reason has no cause.
   [[nodiscard]] bool is_one() const { return reason.cause != record::Cause::none; }
 };
 

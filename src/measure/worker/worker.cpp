@@ -219,9 +219,9 @@ class Worker {
     return batch;
   }
 
-  // If a driver has changed the floating-point mode of this process, restores the mode and reports
-  // that the current configuration failed. Without the correct mode, data generated afterwards
-  // would not be bit-identical to the accepted data.
+  // If a driver has changed the floating-point mode of this process, restores the mode. If the
+  // rounding mode was wrong, also reports that the current configuration failed, because data
+  // generated in that mode would not be bit-identical to the accepted data.
   template <typename OnFailure>
   void blame_arithmetic(const OnFailure& on_failure) {
     std::string changed = restore_arithmetic();
@@ -261,7 +261,7 @@ class Worker {
   }
 
   // Like supported_work(), but throws BadInput for invalid input. The message states the place in
-  // the input.
+  // the input, such as a line of a file.
   Work work_or_skip(Configuration& configuration, const std::vector<std::string>& faults) {
     try {
       return supported_work(configuration, faults);

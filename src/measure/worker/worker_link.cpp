@@ -38,8 +38,7 @@ bool drain(int fd, Take take) {
   }
 }
 
-// Returns whether the process was ended by a signal that comes from other processes, and that
-// drivers do not raise.
+// Returns whether another process ended the worker on purpose. Drivers do not raise these signals.
 bool is_ordered(const Exit& exit) {
   return exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT;
 }
@@ -84,8 +83,8 @@ WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseco
   for (;;) {
     const bool in_time = wait_for_event(deadline);
     if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
-    // Reads `ended_` before it reads the pipe. If the worker has ended by then, everything that it
-    // wrote is available.
+    // Reads `ended_` before the pipe. If the worker has ended by then, the pipe already contains
+    // everything that the worker wrote.
     const bool over = ended_;
     read_answer();
     read_log();

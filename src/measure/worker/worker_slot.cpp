@@ -91,7 +91,8 @@ Refused WorkerSlot::try_to_open(const Start& start,
   command.push_back(setup_.device);
   const auto closed = [this](Refused refused) {
     refused.reason.stage = record::Stage::opening;
-    // `detail` already names the call that failed, so the subject is the device.
+    // The member `detail` already states the call that failed, so the member `subject` names the
+    // device.
     refused.reason.subject = setup_.device;
     return refused;
   };
