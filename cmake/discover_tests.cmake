@@ -12,7 +12,8 @@ macro(triptych_add_test test filter)
 endmacro()
 execute_process(COMMAND "${TRIPTYCH_PROGRAM}" --gtest_list_tests TIMEOUT 600
                 OUTPUT_VARIABLE triptych_lines RESULT_VARIABLE triptych_result)
-# Semicolons and brackets, which may be part of a parameter in a comment, would disturb the list.
+# Removes the comments in which GoogleTest prints the parameters of parameterized tests. A semicolon or a bracket in a comment
+# would break the conversion of the lines to a CMake list.
 string(REGEX REPLACE " *#[^\n]*" "" triptych_lines "${triptych_lines}")
 string(REPLACE "\n" ";" triptych_lines "${triptych_lines}")
 set(triptych_suite "")
@@ -28,6 +29,6 @@ foreach(triptych_line IN LISTS triptych_lines)
   endif()
 endforeach()
 if(triptych_suite STREQUAL "" OR NOT triptych_result EQUAL 0)
-  # This test always fails, and its output contains the reason.
+  # If the tests could not be listed, adds a test that always fails, and whose output contains the reason.
   add_test("${TRIPTYCH_NAME}.cannot_list_its_tests" sh -c "\"$0\" --gtest_list_tests; exit 1" "${TRIPTYCH_PROGRAM}")
 endif()

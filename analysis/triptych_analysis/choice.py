@@ -17,8 +17,9 @@ def mean_values(dataset, rows, columns):
     """Returns the mean value for each combination of levels of two factors, which the columns `rows` and `columns` name. The
     column `row` contains the level of the first factor, `column` the level of the second factor, `samples` the number of
     observations, `mean_UNIT` their mean, and `held` the factors with only one level, such as "step=1, viewport=64" (see scope()).
-    The means are taken over the fullest block, so that they differ only in the two factors. Returns an empty table if either
-    factor has fewer than two levels in this block. A combination that was not measured has no row."""
+    The means are taken over the observations that splits.fullest_block() selects, so that they differ only in the two factors.
+    Returns an empty table if either factor has fewer than two levels in this block. A combination that was not measured has no
+    row."""
     mean = f"mean_{dataset.unit}"
     chosen = fullest_block(dataset, [rows, columns])
     of_row, of_column = levels_in(dataset, rows, chosen), levels_in(dataset, columns, chosen)
@@ -104,7 +105,8 @@ def effects(dataset, factors):
 
 def _largest_ratio(levels, logs):
     """Returns the largest geometric mean of value(expensive)/value(cheap) among all pairs of levels, the two levels and the
-    number of value pairs."""
+    number of value pairs. `logs` contains ln(value) with a row for each combination of the other factors and a column for each
+    level, and NaN for a missing value."""
     best = (np.nan, None, None, 0)
     for i in range(len(levels)):
         for j in range(i + 1, len(levels)):

@@ -9,8 +9,8 @@ from .dataset import natural_order
 from .splits import Split, scope, split
 from .tables import InputError
 
-# With fewer pairs, a line would be meaningless, because two points always lie on a line, and three points often nearly do by
-# chance.
+# The smallest number of pairs of values from which a result is computed. With fewer pairs, a regression line, for example, would
+# be meaningless, because two points always lie on a line, and three points often nearly do by chance.
 LEAST_PAIRS = 4
 BOX = ["mean", "minimum", "lower_quartile", "median", "upper_quartile", "maximum"]
 
@@ -62,10 +62,10 @@ def box(matrix):
 def speed_ups(dataset, of_split, reference):
     """Returns the speed-up of every level except the reference. `of_split` contains the observations, divided by the levels of
     the factor (splits.Split). The column `speed_up` is the slope of the line value(reference) = intercept + speed_up ·
-    value(level), which is fitted to the pairs by least squares, and `pairs` is the number of pairs. `error` is (1 − r)·speed_up,
-    as in the paper, and `low` and `high` are the ends of the range speed_up ± error. `mean_ratio` is the geometric mean of
-    value(reference)/value(level), which does not depend on an intercept. `held` lists the factors that have the same level in
-    all these observations, such as "step=1, viewport=64"."""
+    value(level), which is fitted to the pairs of values by least squares. `pairs` is the number of pairs, and `r` is Pearson's r
+    of the pairs. `error` is (1 − r)·speed_up, as in the paper, and `low` and `high` are the ends of the range speed_up ± error.
+    `mean_ratio` is the geometric mean of value(reference)/value(level), which does not depend on an intercept. `held` lists the
+    factors that have the same level in all these observations, such as "step=1, viewport=64"."""
     columns = ["factor", "level", "reference", "pairs", "speed_up", "error", "low", "high", "r",
                f"intercept_{dataset.unit}", "mean_ratio", "held"]
     rows = []

@@ -10,8 +10,8 @@ import pandas as pd
 
 from .tables import COST, FACTOR
 
-# The parts of a frame's cost whose instruction counts repeat exactly. The counts for the C library and for the program do not
-# repeat.
+# The parts of a frame's cost whose instruction counts are the same in every run. The counts for the C library and for the program
+# differ from run to run.
 COST_PARTS = ("device_code", "driver")
 # The parts into which the camera is divided, as in the paper. With camera_path, the path is the factor, and the position on it
 # is one of the other factors. With camera_rotation, the position on an orbit is the factor, and the axis of the orbit is one of
@@ -45,7 +45,8 @@ class Dataset:
         return len(self.values)
 
     def factor(self, name):
-        """Returns a factor, or a part of the camera as a factor for averaging. All random views count as one path."""
+        """Returns the factor with this name, or the factor for a part of the camera (CAMERA_PARTS). All random views count as
+        one path."""
         if name not in CAMERA_PARTS:
             return self.factors.get(name) or Factor([], np.full(len(self), -1))
         return self.camera_part(name, of_all=True)[0]
@@ -155,7 +156,8 @@ def _aside(records, notes, more, emulated):
     outcome = records["outcome"].astype(str)
     reasons = [(outcome != "measured", "with the outcome '" + outcome + "' on " + records["device"].astype(str)),
                (records["injected"].notna(), "with an injected fault"),
-               # A record with copied frames is not an independent observation: r between it and its original would always be 1.
+               # A record with copied frames is not an independent observation, because its value always equals that of its
+               # original.
                (records["same_as"].notna(), "with frames copied from an equivalent configuration"),
                (records["technique"] == "speed_of_light", "of a technique that makes no image"),
                (emulated, "with instructions counted by an emulator, which distorts times,")]

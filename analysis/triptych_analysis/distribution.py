@@ -28,8 +28,9 @@ def ks_log_normal(values):
 
 
 def lilliefors_p(d, n, replicates, seed):
-    """Returns p for D if the parameters were fitted to the same values (Lilliefors 1967). The function draws random normal
-    samples and fits each of them. If k of them have a D that is at least as large, p = (1 + k)/(1 + replicates)."""
+    """Returns the p-value of the Kolmogorov–Smirnov statistic `d` of `n` values to which the distribution was fitted (Lilliefors
+    1967). The function draws `replicates` random normal samples of n values, fits a normal distribution to each of them, and
+    computes the statistic of each fit. If k of the samples have a statistic of at least `d`, p = (1 + k)/(1 + replicates)."""
     random = np.random.default_rng(seed)
     upper = np.arange(1, n + 1) / n
     as_large = 0

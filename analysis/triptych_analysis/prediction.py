@@ -22,7 +22,8 @@ COLUMNS = ["data", "models", "held_out", "line_r2", "forest_r2", "trained", "str
 
 
 def r_squared(values, predicted):
-    """Returns 1 − Σ(y − ŷ)²/Σ(y − ȳ)², or NaN if there are fewer than two values or if all values are equal."""
+    """Returns R² = 1 − Σ(y − ŷ)²/Σ(y − ȳ)² for the values y, their mean ȳ and the predicted values ŷ. Returns NaN if there are
+    fewer than two values or if all values are equal."""
     total = ((values - values.mean()) ** 2).sum() if len(values) > 1 else 0
     return 1 - ((values - predicted) ** 2).sum() / total if total > 0 else np.nan
 
@@ -46,7 +47,9 @@ class Encoder:
         return self.of_level[self.factor.codes[rows]][:, None]
 
     def indicators(self, rows, among):
-        """Returns the number, or for a category an indicator for every level in `among` except the first."""
+        """Returns the columns of a linear model for the observations `rows`. A numeric factor has one column, which contains its
+        numbers. A category has a column of zeros and ones for every level that occurs in the observations `among`, except the
+        first level."""
         if self.numeric:
             return self.codes(rows)
         present = np.unique(self.factor.codes[among])
@@ -116,7 +119,7 @@ def _by_structure(structures, rows):
 
 
 def _predict_structure(dataset, trained, held_out, line):
-    """Fits a linear model to the training observations of one structure, using the factors that vary there. Writes its
+    """Fits a linear model to the training observations of one structure, using the factors that vary in it. Writes its
     predictions to `line`, unless there are too few training observations."""
     both = np.concatenate([trained, held_out])
     encoders = [Encoder(dataset, each) for each in scope(dataset, both)["varied"] if each not in STRUCTURE]

@@ -37,8 +37,8 @@ def split(dataset, factor):
 
 
 def combined(columns, length):
-    """Numbers the combinations of codes, starting from 0. Returns the number of each row, and how many combinations there
-    are."""
+    """Numbers the different rows of a table of level codes, starting from 0. `columns` are the columns of the table, and `length`
+    is the number of its rows. Returns the number of each row, and how many different rows there are."""
     keys = np.zeros(length, dtype=np.int64)
     count = 1
     for column in columns:

@@ -16,8 +16,9 @@ MOST_FOR_EXACT = 4_000_000  # the largest product of two sample sizes for which 
 
 
 def ks_two_samples(a, b):
-    """Returns (D, p) of the two-sided test of a and b. b must be sorted. For small samples, p is exact if there are no ties.
-    For large samples of sizes n and m, p is Kolmogorov's p for a sample of size n·m/(n + m)."""
+    """Returns (D, p) of the two-sided, two-sample Kolmogorov–Smirnov test of a and b, whose sizes are n and m. b must be sorted.
+    If the samples are small (n·m ≤ MOST_FOR_EXACT), p is exact unless there are ties. If they are large, p is the p-value of the
+    one-sample test for a sample of size n·m/(n + m)."""
     n, m = len(a), len(b)
     if n * m <= MOST_FOR_EXACT:
         with warnings.catch_warnings():
@@ -36,8 +37,8 @@ def path_tests(dataset, seed):
     """Tests each path, using the configurations that were measured from the most views. Returns two rows for each path. In the
     first row, the path is compared with random subsets of as many values from any views, as in the paper (`subsets_of` is
     "samples"). In the second row, it is compared with random sets of as many views ("views"). Random subsets are taken from all
-    values, so they are closer to all values than independent samples would be, and their p are larger than uniformly
-    distributed ones. Returns an empty table if there is only one path.
+    values, so they are closer to all values than independent samples would be, and their p-values are larger than those of
+    independent samples, which are uniformly distributed. Returns an empty table if there is only one path.
 
     `views` and `samples` are the numbers of views and of values of the path, and `all_views` and `all_samples` those of all
     paths together. `d` and `p` are the result of the test of the path. `subsets` is the number of random subsets, and `rejected`
