@@ -21,10 +21,10 @@ struct HistoryPoint {
   std::string driver_version;
   std::string triptych;            // version of Triptych that measured the results
   std::set<std::string> injected;  // faults injected with `run --inject`
-  // Chained indices of cost and time, which are 1 for the first point. The index of each later
-  // point is a geometric mean over its configurations. Each configuration contributes its cost or
-  // time, divided by its value in the most recent earlier store that contains it, and multiplied by
-  // the index of that earlier store. The index is nullopt if no earlier store contains any of the
+  // Chained indices of cost and time. They are 1 for the first point. For a later point, each
+  // configuration contributes a factor: its value, divided by its value in the most recent earlier
+  // store that contains it, times the index of that earlier store. The index of the point is the
+  // geometric mean of these factors. It is nullopt if no earlier store contains any of the
   // configurations.
   std::optional<double> cost;  // instructions of generated code and driver
   std::optional<double> time;  // median frame time on the wall clock, available in all stores

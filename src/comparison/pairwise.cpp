@@ -65,9 +65,9 @@ double statistic_variance(double n, double ties) {
   return n * (n + 1) * (2 * n + 1) / 24 - ties / 48;
 }
 
-// Returns the number of sorted Walsh averages (the means of two differences) that lie outside the
-// confidence interval at each end. For distinct differences, this is the largest k with
-// P(V ≤ k − 1) ≤ tail, or 0 if there is no such k. V is the signed-rank statistic of n differences.
+// The confidence interval extends from the k-th smallest to the k-th largest Walsh average (mean of
+// two differences). Returns k. For distinct differences, this is the largest k with P(V ≤ k − 1) ≤
+// tail, or 0 if there is no such k, where V is the signed-rank statistic of n differences.
 std::size_t averages_outside(std::size_t n, double tail) {
   if (n > most_for_exact) {
     const auto count = static_cast<double>(n);

@@ -18,7 +18,8 @@ struct SideBySide {
   struct Cell {
     double value = 0;  // instructions or nanoseconds per frame
     double ratio = 1;  // relative to the best device of the row
-    // Counters that explain the difference, as ratios to the counters of the best device.
+    // Counters of this device, divided by the same counters of the best device. They explain why
+    // the values differ.
     std::map<std::string, double> work = {};
   };
   struct Row {

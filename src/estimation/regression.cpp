@@ -48,7 +48,7 @@ std::vector<double> residuals_of(Points x, Points y, const Line& line) {
   return result;
 }
 
-// Weighted sums over x: Σw, the weighted mean of x, and Σw(x − mean)².
+// Weighted sums over the x coordinates of points: Σw, the weighted mean of x, and Σw(x − mean)².
 struct Design {
   double weight = 0;
   double centre = 0;
@@ -93,7 +93,7 @@ double mean_rho(Points residuals, double scale) {
   return sum / static_cast<double>(residuals.size() - parameters);
 }
 
-// Returns the scale below which all differences between points and line are attributed to rounding.
+// Returns a lower limit for the scale of residuals. Smaller residuals are attributed to rounding.
 double least_scale(Points y) {
   double largest = 0;
   for (const double value : y) largest = std::max(largest, std::abs(value));

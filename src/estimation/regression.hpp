@@ -50,8 +50,9 @@ struct Bisquare {
 // this line, and regains the efficiency of least squares.
 struct RobustLine {
   Line line;
-  // ŝ, an estimate of the standard deviation of normal residuals. For n points, the sum of ρ is
-  // divided by n − 2, as the sum of squares is in least squares.
+  // The scale ŝ, which estimates the standard deviation of the residuals if they are normal. In the
+  // definition of ŝ, the sum of ρ over n points is divided by n − 2, as least squares divides the
+  // sum of squares.
   double scale = 0;
   double intercept_error = 0;  // standard error, see robust_variance
   double slope_error = 0;

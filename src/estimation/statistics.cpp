@@ -86,9 +86,9 @@ std::vector<double> benjamini_hochberg_adjusted(std::span<const double> p_values
   return adjusted;
 }
 
-// Applies Newton's method to 1/ψ', where ψ' is the trigamma function. 1/ψ' is convex and nearly
-// linear, so that the iteration converges from one side (Smyth 2004, appendix). For very
-// large and very small y, the asymptotes are exact in double precision.
+// Solves ψ'(x) = y, where ψ' is the trigamma function, by Newton's method for 1/ψ'. This function
+// is convex and nearly linear, so that the iteration converges from one side (Smyth 2004,
+// appendix). For very large and very small y, the asymptotes are exact in double precision.
 double inverse_trigamma(double y) {
   if (y > 1e7) return 1 / std::sqrt(y);
   if (y < 1e-6) return 1 / y;

@@ -7,8 +7,8 @@ namespace triptych::record {
 
 // Returns whether the record has an image. There is no image if the technique is speed_of_light,
 // which only fetches the data and sums them, or if the device is a compile-only device, which draws
-// nothing. A test checks that this function agrees with the list of techniques
-// (technique/catalogue.hpp) on which techniques draw an image.
+// nothing. A test compares this function with technique/catalogue.hpp, which states for each
+// technique whether it draws an image.
 [[nodiscard]] inline bool has_picture(const Record& record) {
   return record.technique != "speed_of_light" && record.code.empty();
 }

@@ -68,9 +68,9 @@ struct Reason {
   std::map<std::string, double> numbers = {};  // by the names that the comments on Cause state
   std::string subject = {};                    // the name of an API call, a device, a data set, …
   std::string code = {};                       // the error code of an API call
-  // The configuration was not attempted, because other configurations with the levels
-  // `shared_levels` failed in this way. If `shared_levels` is empty, the failure did not depend on
-  // any factor of the plan.
+  // Whether the configuration was not attempted, because other configurations with the levels
+  // `shared_levels` failed for this reason. If `shared_levels` is empty, the failure did not depend
+  // on any factor of the plan.
   bool not_tried = false;
   std::string shared_levels = {};  // "factor=value,…"
   std::string detail = {};         // the message of a driver, a library or an exception

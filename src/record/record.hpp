@@ -112,11 +112,12 @@ struct Record {
   double overhead_ns = 0;               // wall-clock time outside device work and warm-up
   std::uint64_t peak_memory_bytes = 0;  // peak memory of the worker process so far
 
-  // The instructions that the worker process executed during one frame with the same device code
-  // that is timed, grouped by the location of the executed code: "device_code", "driver", "libc",
-  // "program". Two more entries are "allocations", the number of memory allocations, and "misses",
-  // the cache misses of device code in a simulated cache. Empty if instructions were not counted.
-  // `prepare_cost` contains the corresponding counts for the preparation.
+  // The instructions that the worker process executed during one frame, which uses the same device
+  // code as the timed frames. They are grouped by the location of the executed code: "device_code",
+  // "driver", "libc", "program". Two more entries are "allocations", the number of memory
+  // allocations, and "misses", the cache misses of device code in a simulated cache. Empty if
+  // instructions were not counted. `prepare_cost` contains the corresponding counts for the
+  // preparation.
   Counts cost;
   Counts prepare_cost;
   Code code;  // for plans with the check `code`; empty if the compiler reported nothing
@@ -139,8 +140,8 @@ struct Record {
   [[nodiscard]] bool untimed() const {
     return outcome == Outcome::measured && warm_up_frames == 0 && wall_ns.empty();
   }
-  // Returns the number of instructions per frame in device code and in the driver. Unlike the counts
-  // of "libc" and "program", this number hardly varies between processes. Returns nullopt if
+  // Returns the number of instructions per frame in device code and in the driver. Unlike the
+  // counts of "libc" and "program", this number hardly varies between processes. Returns nullopt if
   // instructions were not counted.
   [[nodiscard]] std::optional<std::uint64_t> instructions() const;
   // Returns the number of bytes that device code loaded into the simulated cache, which has lines

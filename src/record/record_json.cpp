@@ -88,9 +88,10 @@ void decode(const Json& json, Executable& value) {
 template <typename T>
 requires std::is_integral_v<T>
 void decode(const Json& json, T& value) {
-  // Also rejects negative numbers, because every integer in a record is a count. In JSON that this
-  // code created, a count may have the signed or the unsigned number type of the JSON library. A
-  // count that was parsed from text always has the unsigned type.
+  // Also rejects negative numbers, because every integer in a record is a count. The JSON library
+  // has a signed and an unsigned number type, and both are accepted: a count that was parsed from
+  // text has the unsigned type, but a count that this program stored in a Json object may have the
+  // signed type.
   const bool natural =
       json.is_number_unsigned() || (json.is_number_integer() && json.get<std::int64_t>() >= 0);
   if (!natural ||

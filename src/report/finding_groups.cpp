@@ -225,8 +225,8 @@ class Grouping {
     return group;
   }
 
-  // Returns the devices with other drivers that fail in some of these configurations and pass in
-  // none of them.
+  // Returns the devices with other drivers that fail in some configurations of `members` and pass
+  // in none of them.
   [[nodiscard]] std::vector<std::string> also_wrong(const Members& members) const {
     std::set<std::string> wrong;
     std::set<std::string> right;
@@ -294,7 +294,8 @@ void judge_again(const Finding& finding, const judge::GateResult& result, Comman
   command.command = "gate";
   command.object = result.argument.empty() ? result.plan : result.argument;
   if (finding.check == Check::correlation) {
-    // The line is fitted to all configurations of several devices, so all of them are measured.
+    // The check `correlation` fits a line to all configurations of several devices, so the command
+    // measures all of them.
     command.device.clear();
     command.factors.clear();
   } else {

@@ -42,7 +42,8 @@ struct FindingGroup {
   std::size_t changed_with_it = 0;
   std::vector<const judge::Finding*> members = {};
   std::vector<std::string> devices = {};  // the devices of the members, sorted
-  // judge::kind_of() of the findings; if they are about changed code, only their cause.
+  // The kind of the findings (judge::kind_of()), or only the name of their cause if they are about
+  // changed code.
   std::string kind = {};
   // The member with the largest error: the one with the most wrong pixels or the largest change.
   const judge::Finding* worst = nullptr;

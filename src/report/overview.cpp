@@ -30,7 +30,8 @@ bool decides(Verdict verdict) {
   return verdict != Verdict::advisory && verdict != Verdict::skipped;
 }
 
-// Returns, for example, "vulkan:lavapipe: 18 of 66 checks wrong; gl:zink: 1 of 66".
+// Returns, for each device, how many of its checks have this verdict: "vulkan:lavapipe: 18 of 66
+// checks wrong; gl:zink: 1 of 66".
 std::string places(const std::map<std::string, Tally>& by_device, Verdict verdict,
                    std::string_view word) {
   std::string text;

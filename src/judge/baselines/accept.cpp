@@ -48,9 +48,9 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
       if (keeps) update_image(record, reference, next);
-      // The entry contains one hash of the data for each voxel format, and devices may use
-      // different formats. The hashes for other formats are therefore discarded only if the
-      // reference image has changed.
+      // The entry of a scene contains one hash of the data for each voxel format. The devices of
+      // this run may not have used all formats, so the hashes for the other formats are kept,
+      // unless the reference image has changed.
       Json& entry = table[record.scene];
       const Json hash = reference_hash(reference);
       if (!entry.is_object() || entry.value("reference", Json()) != hash) {

@@ -10,8 +10,8 @@
 
 namespace triptych::judge {
 
-// The expected result. Only files of expectations contain it; an entry of waivers.json excuses
-// failures and flakes.
+// The result that an entry in a file of expectations expects. Entries of waivers.json do not state
+// an expected result, because they always excuse failures and flakes.
 enum class Known : std::uint8_t {
   fail,   // a regression
   flake,  // a regression in some runs and a pass in others

@@ -21,8 +21,9 @@ struct CodeStatistic {
   int rank = 100;              // statistics are printed in this order, the most important first
 
   [[nodiscard]] bool is_occupancy() const { return rank == 0; }
-  // Returns whether the relative change of the statistic is meaningful. The statistic must affect
-  // the verdict. It must not be the amount of spills or scratch memory, which is ideally 0.
+  // Returns whether a relative change of the statistic is meaningful. This is the case if the
+  // statistic affects the verdict, unless it is an amount of spills or scratch memory, which is
+  // ideally 0.
   [[nodiscard]] bool has_relative_change() const { return decides && rank >= 4; }
   [[nodiscard]] bool counts_registers() const { return rank == 10 || rank == 11; }
 };

@@ -32,8 +32,8 @@ bool can_have_line(const Values& x) {
   return x.size() >= 4 && std::ranges::any_of(x, [&](double each) { return each != x.front(); });
 }
 
-// Returns exp(x − first) for each logarithm x. Subtracting the first logarithm prevents an
-// overflow. It does not change the correlation r, because r does not depend on units.
+// Returns exp(x − first) for each logarithm x, where first is the first logarithm. The subtraction
+// prevents an overflow. It does not change the correlation r, because r does not depend on units.
 Values plain(Values logarithms) {
   const double first = logarithms.front();
   for (double& value : logarithms) value = std::exp(value - first);

@@ -21,8 +21,8 @@ enum class LineRefusal : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(LineRefusal refusal);
 
-// The line y = intercept + slope·x. Both x and y are logarithms, so the intercept represents a
-// constant factor between two devices.
+// The line y = intercept + slope·x that is fitted to the costs or times of two devices. Both x and
+// y are logarithms, so the intercept represents a constant factor between the devices.
 struct CorrelationLine {
   std::size_t configurations = 0;
   // All following numbers are NaN if there are too few points for a line.

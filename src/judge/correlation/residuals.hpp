@@ -40,12 +40,12 @@ struct CostChange {
   double driver = 0;
 };
 [[nodiscard]] CostChange change_of(const FrameCost& stored, const FrameCost& now);
-// Returns ln(new cost/old cost) of the frame, counting only those parts whose change exceeds its
-// bound (0 if there is no such part). Each part is judged separately, so that a change in device
-// code is detected even if the driver's count varies a lot.
+// Returns ln(new cost/old cost) of the frame, counting only the parts (device code, driver) whose
+// change exceeds their value in `bound`. Returns 0 if there is no such part. Each part is judged
+// separately, so that a change in device code is detected even if the driver's count varies a lot.
 [[nodiscard]] double moved_by(const CostChange& change, const Repeatability& bound);
-// Returns whether the residual r of devices A and B differs from r0 by more than the repeatability
-// of both.
+// Returns whether the ratio of the costs of two devices, A and B, differs from the stored ratio by
+// more than the repeatability of both.
 [[nodiscard]] bool residual_moved(const CostChange& a, const Repeatability& bound_a,
                                   const CostChange& b, const Repeatability& bound_b);
 

@@ -20,10 +20,10 @@ namespace {
 constexpr double float_rounding = 0x1.0p-24;
 
 // Returns the largest allowed error. A part of the accepted error (`arithmetic`) comes from
-// rounding, storage and early ray termination. In another correct image, that part may point in the
-// opposite direction, so the error may exceed the accepted error by twice that part. This follows
-// from the triangle inequality for the RMS distance: two correct images differ by at most the sum
-// of their distances from the reference image.
+// rounding, storage and early ray termination. In another correct image, that part may have the
+// opposite sign, so the error may exceed the accepted error by twice that part. This follows from
+// the triangle inequality for the RMS distance: two correct images differ by at most the sum of
+// their distances from the reference image.
 double allowed(const StoredError& stored) {
   return stored.rmse + 2 * stored.arithmetic + float_rounding;
 }
@@ -76,9 +76,10 @@ std::optional<accuracy::Order> stored_order(const RunView& view,
   return accuracy::fit_order(points);
 }
 
-// Reports a regression if the order of convergence is below the accepted order by more than the sum
-// of both half widths. If no order can be fitted any longer, although the step sizes are the same,
-// errors that do not depend on the step size have grown. This is reported as `cannot_judge`.
+// Reports a regression if the order of convergence is below the accepted order by more than the
+// half widths of both confidence intervals together. If no order can be fitted any longer, although
+// the step sizes are the same, errors that do not depend on the step size have grown. This is
+// reported as `cannot_judge`.
 Finding judge_order(const RunView& view, const record::Device& device,
                     const std::optional<accuracy::Order>& now, const accuracy::Order& stored) {
   Observation what{.cause = now ? Cause::order : Cause::no_order, .against = Against::baseline};

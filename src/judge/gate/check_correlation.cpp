@@ -56,8 +56,9 @@ std::vector<const DeviceCost*> partners_of(const DeviceCost& device,
   return here.empty() ? stored : here;
 }
 
-// Returns whether the residual r of the two devices differs from the stored residual r0. For a
-// device that is not in the run, the stored cost is used, which has no measurement error.
+// Returns whether the ratio of the costs of two devices differs from the stored ratio by more than
+// the repeatability of the counts. For a device that is not in the run, the stored cost itself
+// is used, so its repeatability is 0.
 bool left_residual(const ConfigurationCost& own, const ConfigurationCost& other) {
   const Repeatability none{0, 0};
   return residual_moved(change_of(other), other.record ? repeatability_of(other) : none,

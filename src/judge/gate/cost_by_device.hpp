@@ -45,7 +45,8 @@ struct DeviceCost {
 // Returns the factors of a record, including its technique as the factor "technique".
 [[nodiscard]] Factors factors_of(const record::Record& record);
 
-// Pairs the costs of all configurations that were measured on both devices, and fits the line.
+// Pairs the costs of all configurations that were measured on both devices, and fits a line to
+// them.
 [[nodiscard]] CorrelationPair pair_of(const DeviceCost& a, const DeviceCost& b);
 
 // Pairs the frame times of every two devices in the run. The report shows these pairs, but they do

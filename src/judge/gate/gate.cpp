@@ -355,8 +355,8 @@ void report_what_is_there(const RunView& view, GateResult& result) {
 }
 
 // Reports devices on which something was measured but that have only advisories and skips, because
-// this is not a pass. Without baselines this would be true for every device, so nothing is
-// reported.
+// such a device must not pass. Without baselines, this would be true for every device, so nothing
+// is reported.
 void report_nothing_decided(const RunView& view, GateResult& result) {
   if (!view.request.decides_each_device || !view.baselines.present()) return;
   for (const std::string& device : result.nothing_decided()) {
@@ -386,7 +386,8 @@ void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
 }  // namespace
 
 void sort_findings(std::vector<Finding>& findings) {
-  // The largest change is named first; changes without a ratio are sorted by name.
+  // Findings with a larger change come first. Findings without a ratio count as unchanged, and are
+  // sorted by the names of their configurations.
   const auto change = [](const Finding& finding) {
     const auto ratio = finding.numbers.find("ratio");
     return ratio == finding.numbers.end() ? 0.0 : -std::abs(std::log(ratio->second));

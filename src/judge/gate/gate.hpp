@@ -93,7 +93,8 @@ struct GateRequest {
   // of the plan. Empty if they are not known.
   std::string plan_hash = {};
   std::vector<std::string> expected = {};
-  // The default levels that configuration keys omit, for the factors that the plan names.
+  // The default levels of the factors that the plan names. Configuration keys omit factors that
+  // have their default level.
   std::map<std::string, std::string> defaults = {};
   // Whether `expected` is only a part of the plan, so that accepted configurations outside this
   // part do not count as missing.

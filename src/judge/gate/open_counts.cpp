@@ -12,7 +12,7 @@ double OpenCounts::of(const std::string& counter) {
     try {
       known_ = find_(record_);
     } catch (const core::Error&) {
-      known_.emplace();  // no difference is allowed; the check `image` reports the error
+      known_.emplace();  // the check `image` reports why the scene is not available
     }
   }
   const auto found = known_->find(counter);

@@ -10,7 +10,7 @@ namespace triptych::judge {
 
 // Returns the largest difference that two correct devices may have in each counter of a record, by
 // the name of the counter (SuiteWithTruth::open_counts). Throws core::Error if the scene is not
-// available on this machine; OpenCounts then allows no difference.
+// available on this machine; OpenCounts then allows only the differences that rasterization causes.
 using FindOpenCounts = std::function<std::map<std::string, double>(const record::Record&)>;
 
 // The differences in one record's counters that rounding and rasterization can cause. They are

@@ -21,8 +21,9 @@ using FindExpectations = std::function<std::vector<record::Expectation>(const re
 struct StressTruths {
   FindTruth truth;
   FindExpectations expectations;  // if this function is empty, there are no expectations
-  // Whether the records are only a part of a plan, or of an unfinished run. In this case, an
-  // expectation is not checked if it needs another record that is not in this part.
+  // Whether the records are incomplete, because they belong to only a part of the plan or because
+  // the run is unfinished. In this case, an expectation that needs another record is not checked if
+  // that record is missing.
   bool part = false;
 };
 

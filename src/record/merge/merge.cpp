@@ -210,8 +210,8 @@ struct Stepwise {
   const fs::path& out;
   Aside& aside;
   DataSeen data;
-  // The number of records that were left out in all steps, and the number of records that were
-  // copied in the last step.
+  // The number of records that were left out, summed over all steps, and the number of records that
+  // were copied in the last step, because each step copies the remaining records again.
   std::vector<RecordCounts> counts;
 
   fs::path merge(std::vector<Input> inputs) {

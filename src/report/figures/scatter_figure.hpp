@@ -27,9 +27,9 @@ struct ScatterFigure {
   std::optional<double> shows_from = {};
 };
 
-// Returns two figures: one shows both values on logarithmic axes, with the line; the other shows
-// the deviations from the line. Flagged points have labels. Without a line, returns only the first
-// figure.
+// Returns two figures: one shows both values on logarithmic axes, with the fitted line; the other
+// shows the deviations from this line. Flagged points have labels. Without a line, returns only the
+// first figure.
 [[nodiscard]] Html scatter_chart(const ScatterFigure& scatter);
 
 }  // namespace triptych::report

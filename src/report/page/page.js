@@ -110,8 +110,8 @@ function startComparison(dialog) {
   }
 }
 
-// Magnifies 16 x 16 pixels around the worst pixel. It is in the middle unless it lies near the border
-// of the image.
+// Magnifies 16 x 16 pixels around the worst pixel. The worst pixel is in the middle of the view
+// unless it lies near the border of the image.
 function magnifyAt(view, { x, y }, width, height) {
   const scale = Math.max(1, width / 16);
   const shift = share => Math.min(0, Math.max(1 - scale, 0.5 - share * scale));

@@ -98,8 +98,8 @@ std::string clocks_of(const ComparisonResult& result) {
   return text;
 }
 
-// Returns the line for a device without differences. It states whether both sides agree or nothing
-// was measured.
+// Returns the line for a device without differences. It states either that both sides agree or that
+// nothing was measured.
 std::string no_difference(const DeviceChange& change) {
   if (comparison::was_measured(change)) return "no differences\n";
   return words::nothing_compared(change.configurations.empty()

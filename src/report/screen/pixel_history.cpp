@@ -125,7 +125,7 @@ std::string quiet_line(std::int64_t first, std::int64_t last, std::size_t taken,
                                    taken, count));
 }
 
-// Returns the end of the sequence of quiet rows that begins at `begin`.
+// Returns the end of the sequence of quiet rows (see is_quiet()) that begins at `begin`.
 std::size_t end_of_quiet(const std::vector<SampleRow>& rows, std::size_t begin) {
   std::size_t end = begin;
   while (end < rows.size() && is_quiet(rows[end])) ++end;

@@ -18,8 +18,8 @@ namespace triptych::report::words {
 // Returns where the findings are: "vulkan:lavapipe, technique=raycast (12 configurations)", or the
 // plans if the findings belong to no device.
 [[nodiscard]] std::string place(const Cause& cause);
-// Returns the finding about the worst configuration, followed by the devices on which the
-// configurations pass.
+// Describes the worst finding of the group. Also lists the devices on which the smallest
+// configuration is correct, and the number of configurations whose counters changed, too.
 [[nodiscard]] std::string found(const Cause& cause);
 // States whether the driver is at fault. Returns "" if the results of other devices do not reveal
 // this.
