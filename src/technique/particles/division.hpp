@@ -37,9 +37,10 @@ class Grid {
 // for ray tracing using space subdivision, 1990). Let A be the surface area of the box around the
 // spheres of a part with n particles. A plane divides the part into two parts with n₁ and n₂
 // particles, whose boxes have the surface areas A₁ and A₂. The plane is used if the saving
-// n·A − n₁·A₁ − n₂·A₂ is at least A times half the intended number of particles per cell. Half of a
-// cube has two thirds of the cube's surface area, so a cell with evenly distributed particles is
-// divided only if it has at least one and a half times the intended number.
+// n·A − n₁·A₁ − n₂·A₂ is at least A times half the intended number of particles per cell. For
+// example, if a plane halves a cube with evenly distributed particles, then n₁ = n₂ = n/2 and
+// A₁ = A₂ = ⅔·A. This plane saves n·A/3, so the cube is divided only if n is at least one and a half
+// times the intended number.
 class Division {
  public:
   // Divides space for this scene. The constructor temporarily needs four bytes per particle.

@@ -38,9 +38,10 @@ enum class BrickKind : std::int32_t {
 // proportion to opacity, and the other half in proportion to length, with Y = adapt/(2·L) for each
 // voxel length. Because l·a·e^(−al) ≤ 1 − e^(−al) ≤ A' and A' ≤ b·l, a brick that satisfies
 //   R·(b − a) + (w − k)·b ≤ (K − k)·a + Y,   k = min(w, K),
-// changes the image by at most K·T'·A' + Y·l, and the sum of these changes is at most `adapt`. A
-// homogeneous brick changes nothing for any l, and neither do several consecutive bricks with the
-// same value.
+// changes the image by at most K·T'·A' + Y·l: if w ≤ K, then k = w and the term with b is 0;
+// otherwise, k = K and the term with a is 0. Along a ray, the sum of these changes is at most
+// `adapt`. A homogeneous brick changes nothing for any l, and neither do several consecutive bricks
+// with the same value.
 //
 // The derivation compares images of the same device with and without merging. The values that the
 // device interpolates in a brick are within the brick's range, widened by the rounding of its

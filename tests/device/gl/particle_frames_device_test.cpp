@@ -33,7 +33,8 @@ std::uint64_t corners_of(std::string_view technique) {
   if (technique == "point") return 1;
   if (technique == "polygon_tess") return 8;
   // The adaptive polygon chooses its number of corners from the radius R in pixels, as the cube
-  // root of 0.323·R². For a radius of 14 pixels, this is 3.98.
+  // root of 0.323·R². In the test below, the radius is 14 pixels and this number is 3.98, which is
+  // rounded to 4.
   return 4;
 }
 
