@@ -39,8 +39,8 @@ class Grid {
 // particles, whose boxes have the surface areas A₁ and A₂. The plane is used if the saving
 // n·A − n₁·A₁ − n₂·A₂ is at least A times half the intended number of particles per cell. For
 // example, if a plane halves a cube with evenly distributed particles, then n₁ = n₂ = n/2 and
-// A₁ = A₂ = ⅔·A. This plane saves n·A/3, so the cube is divided only if n is at least one and a half
-// times the intended number.
+// A₁ = A₂ = ⅔·A. This plane saves n·A/3, so the cube is divided only if n is at least one and a
+// half times the intended number.
 class Division {
  public:
   // Divides space for this scene. The constructor temporarily needs four bytes per particle.
