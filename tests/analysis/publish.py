@@ -57,7 +57,8 @@ class Publish(unittest.TestCase):
         return (self.folder / "out/triptych-results/README.md").read_text()
 
     def expect_kept(self, first):
-        # The script fails halfway: it has exported the tables, but cannot analyse them.
+        # This replacement of triptych deletes a file after it has exported the tables. The script therefore fails halfway,
+        # because it cannot analyse the tables.
         stand_in = self.folder / "triptych"
         stand_in.write_text('#!/bin/sh\n"$TRIPTYCH_PROGRAM" "$@" || exit\n'
                             '[ "$1" != export ] || rm "$4/dictionary.json"\n', encoding="utf-8")

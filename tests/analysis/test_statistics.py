@@ -35,7 +35,9 @@ class KolmogorovSmirnov(unittest.TestCase):
         self.assertGreater(p, 0.01)
 
     def test_one_sample_by_hand(self):
-        # The fitted standard deviation of ln x = −1, 0, 1 is √(2/3), and Φ(−1/√(2/3)) = Φ(−1.2247) = 0.11034.
+        # The mean of ln x = −1, 0, 1 is 0, and its standard deviation is √(2/3). With the normal distribution function Φ, the
+        # fitted log-normal distribution has the value Φ(−1/√(2/3)) = Φ(−1.2247) = 0.11034 at the smallest x, where the empirical
+        # distribution function reaches 1/3.
         d, _ = distribution.ks_log_normal(np.exp([-1.0, 0.0, 1.0]))
         self.assertAlmostEqual(d, 1 / 3 - 0.11034, places=5)
 

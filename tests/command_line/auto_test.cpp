@@ -37,7 +37,8 @@ TEST(Auto, ReportsTheFastestAndTheRatio) {
   }
   expect_found(result, " clock); ");
   expect_found(result, "polygon_adaptive ");
-  // The result comes from the store, although a new measurement would have a different result.
+  // With --resume, the result must come from the store, although a new measurement on this device
+  // would find that point is the fastest.
   expect_found(program.run(run + " --resume", fast("point")), ": tiles is the fastest, ");
   expect_found(program.run("run plan --device null:scripted --store t.sqlite", fast("point")),
                ": point is the fastest, ");

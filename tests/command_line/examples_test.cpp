@@ -225,7 +225,7 @@ TEST_P(Examples, RunInAMinimalSystem) {
   }
   if (::geteuid() != 0) GTEST_SKIP() << "needs root to create a minimal system";
   Job job = GetParam()();
-  // ci/fresh has installed the package.
+  // ci/fresh installs the package, so the steps that would install it are removed.
   std::erase_if(job.steps, [](const std::string& step) {
     return step.find("triptych gate") == std::string::npos;
   });

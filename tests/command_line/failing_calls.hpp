@@ -91,7 +91,8 @@ inline Outcome follow(pid_t child, long at) {
     user_regs_struct registers{};
     ::ptrace(PTRACE_GETREGS, child, 0, &registers);
     if (entering) {
-      // The C library requests random bytes after all libraries are loaded.
+      // The C library requests random bytes after all libraries are loaded. From then on, calls may
+      // fail.
       started = started || registers.orig_rax == SYS_getrandom;
       const int error = started ? error_of(registers.orig_rax, at) : 0;
       if (error != 0 && ++outcome.calls == at) {

@@ -55,8 +55,8 @@ TEST_F(History, ReportsChangesAndTheFirstStoreThatIsWorse) {
   EXPECT_THAT(history.at("first_worse").get<std::string>(), HasSubstr("3.sqlite"));
 }
 
-// The device clock of the second store is not trusted. Its frames take the same time as those of
-// the first store.
+// In the second store, the device clock reports only a tenth of the wall time, so it is not
+// trusted. The frames take the same time as in the first store.
 TEST_F(History, ComparesTimesFromTheSameClock) {
   measure("1.sqlite", "1e5", R"(, "device_over_wall": 0.91)");
   measure("2.sqlite", "1e5", R"(, "device_over_wall": 0.1)");
@@ -114,7 +114,8 @@ TEST_F(History, DistinguishesStoresWithTheSameName) {
 
 TEST_F(History, OrdersStoresByTime) {
   measure("b.sqlite", "1e5");
-  // the start time of a run has a resolution of one second
+  // The start time of a run has a resolution of one second, so the second run must begin at least
+  // one second later.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   measure("a.sqlite", "1e5");
   const Result told = program.run("history a.sqlite b.sqlite");

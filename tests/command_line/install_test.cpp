@@ -39,7 +39,8 @@ TEST_F(Installed, PrintsVersionAndCommit) {
               MatchesRegex("triptych [0-9.]+(, commit [0-9a-f]+\\+?)?, device code [0-9a-f]+\n"));
 }
 
-// The Debian package is created from these files.
+// The Debian package is created from the installed files, so their access rights must not depend on
+// the umask.
 TEST_F(Installed, FilesAreReadableByAllAndWritableByTheOwner) {
   for (const char* umask : {"000", "022"}) {
     const std::string to = (folder.path() / umask).string();

@@ -1,5 +1,5 @@
-// Tests that a store that cannot be written can still be judged, such as a CI artifact or another
-// user's run.
+// Tests that a read-only store, such as a CI artifact or the store of another user, can still be
+// judged.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

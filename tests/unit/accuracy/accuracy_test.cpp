@@ -73,7 +73,8 @@ TEST(FitOrder, StepsLongerThanAVoxelAreIgnored) {
   EXPECT_EQ(order->points, 5U);
 }
 
-// If a rounding error f is added to the step-size error s, the measured error is √(s² + f²).
+// If a rounding error f is added to the step-size error s, the measured error is √(s² + f²). The
+// fit must leave out points that consist mainly of f, because they would reduce the order.
 TEST(FitOrder, RoundingDoesNotReduceTheOrder) {
   const double floor = 1e-4;
   const auto order = fit_order(errors_by(
@@ -113,6 +114,7 @@ TEST(Families, DifferOnlyInTheStep) {
 
 TEST(TimeToError, IsStraightOnLogarithmicAxes) {
   // Time is proportional to 1/step and the error to step², so the error is proportional to time⁻².
+  // A quarter of the error therefore takes twice the time.
   const std::vector<AccuracyCase> cases{at(1, 1e-2, 1), at(4, 1e-2 / 16, 0.25)};
   const auto families = accuracy_families(cases);
   EXPECT_NEAR(*time_to_error(cases, families, 1e-2 / 4), 2, 1e-12);

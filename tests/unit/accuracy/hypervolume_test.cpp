@@ -62,8 +62,8 @@ TEST(Hypervolume, AnExactImageHasAFiniteArea) {
   EXPECT_EQ(area_of({case_at(1e6, 1e-9)}), area_of({case_at(1e6, 0)}));
 }
 
-// If all times are 2.5 times as long, the area over four decades of error shrinks by ln 2.5 for
-// each decade, and the reported factor is 2.5.
+// If all times are 2.5 times as long, ln time grows by ln 2.5. Over four decades of error, whose
+// width is 4·ln 10, the area shrinks by ln 2.5 · 4·ln 10. The reported factor is 2.5.
 TEST(Hypervolume, ReportsHowManyTimesAsLongADeviceTakes) {
   const auto area_at = [](double factor) {
     const std::vector<AccuracyCase> cases{case_at(1e6 * factor, 1e-2), case_at(1e7 * factor, 1e-4)};

@@ -69,7 +69,7 @@ TEST(SignedRank, ZerosAreIgnored) {
   EXPECT_EQ(wilcoxon_signed_rank(std::vector<double>(30, 0.5), 0.5).p_greater, 1);
 }
 
-// Returns n differences of distinct sizes, of which the positive differences have the rank sum
+// Returns n differences of distinct sizes. The ranks of the positive differences add up to
 // `statistic`.
 std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
   std::vector<double> values;

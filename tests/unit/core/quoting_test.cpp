@@ -90,7 +90,8 @@ TEST(ShellEnvironment, IsReadByEveryShellWhateverTheNames) {
   for (const std::string& shell : shells()) {
     for (const std::string& hostile : hostile_words) {
       if (hostile.find('=') != std::string::npos || hostile.size() > 1000) continue;
-      // Each entry contains a '=', so `env` does not mistake it for an option.
+      // `env` recognizes each entry NAME=VALUE by its '=', so it mistakes no entry for the name of
+      // a program.
       const std::string name = "V" + hostile;
       const std::array words{std::string("printenv"), name};
       EXPECT_EQ(

@@ -83,7 +83,7 @@ TEST(RobustLine, FollowsTheMainSequenceOfTheStars) {
 
 TEST(RobustLine, IgnoresTheYearsInMinutes) {
   // Venables & Ripley (2002), "Modern Applied Statistics with S", section 6.5: MM-estimates of
-  // 1.1009 and −52.42, in millions of calls.
+  // 1.1009 and −52.42 if calls are counted in millions. Here, the unit is ten million calls.
   const RobustLine fit = robust_line(call_years(), calls);
   EXPECT_NEAR(fit.line.slope, 0.1101, 0.0002);
   EXPECT_NEAR(fit.line.intercept, -5.242, 0.01);

@@ -147,7 +147,8 @@ TEST_F(AsBegunTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
   write_absent(R"([{"device": "gl:*", "reason": "no EGL", "expiry": "2026-02-28"}])");
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);
-  // The fixture's runs began on 2026-02-01. The clock has been set back since then.
+  // This entry expired before the run, which began on 2026-02-01. It must not become valid again,
+  // although the clock has been set back since then.
   write_absent(R"([{"device": "gl:*", "reason": "no EGL", "expiry": "2026-01-31"}])");
   request_.today = "2025-06-01";
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::cannot_judge);

@@ -1,7 +1,7 @@
 #pragma once
-// Whether posix_spawn reports that a program is missing. It does not under QEMU's user-mode
-// emulation, in which the child of a vfork does not share memory with its parent, and exits with
-// code 127 instead.
+// Finds out whether posix_spawn() reports that a program is missing. Under QEMU's user-mode
+// emulation, it does not, because the child of a vfork does not share memory with its parent, and
+// exits with code 127 instead.
 
 #include <spawn.h>
 #include <sys/types.h>

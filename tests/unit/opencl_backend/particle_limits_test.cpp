@@ -20,7 +20,8 @@ TEST(BinTable, ChunksDependOnTheParticlesAlone) {
 }
 
 // The table has a count for each pair of a tile and a chunk (a range of particles). With 512
-// chunks, the table for 8192×8192 pixels would need half a gigabyte.
+// chunks, the table for 8192×8192 pixels would need half a gigabyte, so large images must use fewer
+// chunks.
 TEST(BinTable, StaysSmallForLargeImages) {
   for (const int edge : {4096, 8192, 16384, 32768}) {
     const BinTable table = bin_table(edge, edge, 1000000);

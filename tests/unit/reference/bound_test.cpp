@@ -163,8 +163,9 @@ TEST(Bound, HoldsForADisplacedEye) {
   EXPECT_GT(largest_ratio, 0.5);
 }
 
-// Rays enter and leave at a small angle to the faces. All samples at the ends of rays are opaque,
-// and colours change along the rays.
+// Rays enter and leave at a small angle to the faces. The opacity is either the same everywhere, or
+// it jumps from 0 to 1, so that a missing sample at the end of a ray has its full effect. Colours
+// change along the rays.
 TEST(Bound, HoldsForADisplacedEyeAtGrazingIncidence) {
   for (const double height : {0.01, 0.2, -0.05}) {
     for (const float alpha : {0.2F, 1.0F}) {

@@ -125,7 +125,8 @@ TEST(FindingGroups, DevicesChecksVerdictsAndCausesAreSeparate) {
   EXPECT_EQ(grouped(findings).size(), 5U);
 }
 
-// An edited shader is compiled for every GPU family and changes other statistics on each of them.
+// An edited shader is compiled for every GPU family. Although different statistics change on
+// different families, these changes have the same cause.
 TEST(FindingGroups, ChangedCodeIsOneCauseOnAllDevices) {
   const std::vector<Finding> findings{
       finding(regression, "vulkan:a", "technique=x,viewport=64", changed("instructions"),
@@ -237,8 +238,8 @@ TEST(CommandOf, MeasuresTimesIfTheyDecidedTheVerdict) {
   EXPECT_EQ(command_of(slower, quick), command + " --times");
 }
 
-// An image alone does not show an error that is judged against stored values, and an order of
-// convergence needs all step sizes.
+// The command must judge the error again with the gate, because `render` compares an image neither
+// with stored values nor with the images of all step sizes, which an order of convergence needs.
 TEST(CommandOf, JudgesAnErrorAgain) {
   const judge::GateResult plan{.plan = "volume/accuracy", .run = "r", .findings = {}};
   EXPECT_EQ(
