@@ -102,11 +102,12 @@ Failure parse_failure(const Json& json) {
       if (!value.is_array()) refuse(key, "an array of globs");
       for (const Json& each : value) failure.after.push_back(text(each, key));
     } else if (key != "kind") {
-      refuse(key, "a key of a failure (kind, at, frame, only, once or after)");
+      refuse(key,
+             "one of the keys of an object in 'failures': kind, at, frame, only, once or after");
     }
   }
   if (of_image && failure.at != Place::image)
-    refuse("at", "\"image\" for a failure that affects the image");
+    refuse("at", "\"image\", because this kind of failure affects the image");
   return failure;
 }
 

@@ -306,7 +306,7 @@ core::ExitCode accept(const AcceptArguments& arguments) {
   }
   baselines.keep();
   if (!baselines.copied_from().empty()) {
-    put("{} was created; all baselines that this command did not accept were copied from {}\n",
+    put("{} was created as a copy of {}, and then the accepted baselines were written to it\n",
         baselines.name().string(), baselines.copied_from().string());
   }
   return core::ExitCode::pass;

@@ -40,12 +40,13 @@ const std::vector<Factor>& volume_factors() {
       choice(
           "voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", Decides::how_it_is_made,
           "how voxels are stored on the device: as 8- or 16-bit integers, floats, or half floats "
-          "(f16); auto: the fastest combination of voxel and sampler that is exact on the device"),
+          "(f16); auto: the fastest combination of the factors voxel and sampler that is exact on "
+          "the device"),
       choice(
           "sampler", {"auto", "hardware", "manual", "packed"}, "auto", Decides::how_it_is_made,
           "how voxels are interpolated: by the hardware sampler, by the kernel (manual), or by the "
-          "kernel from packed cells of eight voxels; auto: the fastest combination of voxel and "
-          "sampler that is exact on the device"),
+          "kernel from packed cells of eight voxels; auto: the fastest combination of the "
+          "factors voxel and sampler that is exact on the device"),
       silent(text("window", "full",
                   "the range of values that the transfer function spans: full, or LOW..HIGH in the "
                   "data's units or percentiles (p1..p99, 0..p99.5); values outside are clamped")),

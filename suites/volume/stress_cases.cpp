@@ -27,8 +27,9 @@ std::vector<StressCase> cases_of_geometry() {
       {3,
        "parallel",
        "ray directions have a component of ±0, and the rays begin in the plane of a face",
-       "the product 0·∞ never occurs, because such a ray is inside the box for its whole length or "
-       "not at all; rounding decides which, and the error bound covers both cases",
+       "the intersection with the box never computes 0·∞, because nothing is divided by a "
+       "component of ±0: such a ray is inside the box for its whole length or not at all; rounding "
+       "decides which, and the error bound covers both cases",
        {"lower", "upper", "negative_zero"},
        stress_parallel},
       {4,
@@ -190,14 +191,17 @@ std::vector<StressCase> cases_of_transfer() {
       {23,
        "march",
        "100,000 and 1,000,000 steps through a varying field",
-       "sample i is at the distance (i + ½)·h for a step h, and i is exact up to 2²³, so positions "
-       "do not drift; the relative error of the image is at most 4 · 2⁻²⁴ per sample",
+       "sample i is at the distance (i + ½)·h for a step h, and floats represent i + ½ exactly up "
+       "to 2²³, so positions do not drift; the relative error of the image is at most 4 · 2⁻²⁴ per "
+       "sample",
        {"1e5", "1e6"},
        stress_march},
       {24,
        "stride",
        "the step is twice or a thousand times the volume's diagonal",
-       "each ray takes one partial sample for its whole chord, with the value at the clamped edge",
+       "each ray takes one sample for its whole chord; the position of this sample is half a step "
+       "behind the entry point and therefore outside the volume, where the field has the value of "
+       "the nearest edge",
        {"twice", "thousand"},
        stress_stride},
       {25,
@@ -222,7 +226,7 @@ std::vector<StressCase> cases_of_transfer() {
        stress_slope},
       {28,
        "edit",
-       "transfer functions are random, with runs of visible entries "
+       "transfer functions are random, with sequences of adjacent visible entries "
        "(tests/contract/stress_test.cpp tests 100 of them)",
        "for every transfer function, the image with skipping is bit-identical to the image without "
        "it",

@@ -123,8 +123,9 @@ void check_loop(const std::vector<double>& loop_wall_ns, std::vector<double> pro
   }
   if (is_explained()) return;
   throw NotDrawn(
-      fmt::format("a frame of the wall-clock loop (frames drawn back to back) was not drawn: it "
-                  "took {:.3g} ms, but the fastest of the {} checked frames took {:.3g} ms",
+      fmt::format("a frame of the wall-clock loop (frames drawn back to back) cannot have been "
+                  "drawn, because it took only {:.3g} ms, but the fastest of the {} frames whose "
+                  "images were checked took {:.3g} ms",
                   fastest * 1e-6, proven_wall_ns.size(), proven * 1e-6));
 }
 

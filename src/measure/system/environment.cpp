@@ -22,8 +22,8 @@ constexpr std::array<EnvironmentDefault, 2> defaults{{
     {"POCL_CACHE_DIR", "{cache}",
      "opencl:", "PoCL processes crash if they use the same kernel cache at the same time"},
     {"POCL_PTHREAD_MIN_WGS", "1", "opencl:",
-     "otherwise PoCL runs launches with few work-groups on one thread, which halves the speed at "
-     "256x256"},
+     "otherwise PoCL uses only one thread for a launch with few work-groups, which halves the "
+     "speed for an image of 256x256 pixels"},
 }};
 
 std::string variable(const char* name) {

@@ -29,10 +29,12 @@ Html fit_text(const CorrelationPair& pair) {
   const judge::CorrelationLine& line = pair.line;
   if (!std::isfinite(line.slope)) return markup("<p>{}.</p>\n", words::refusal(line));
   return markup(
-      "<p>{} configurations; ln y = {:.3f} + {:.3f} ln x, scatter {:.2g} %; Pearson’s r is {:.4f}, "
-      "and {:.4f} for the logarithms. {}</p>\n",
-      line.configurations, line.intercept, line.slope, 100 * std::expm1(line.scale), line.pearson,
-      line.rho,
+      "<p>{} configurations. The line is ln y = {:.3f} + {:.3f} ln x, where x is the number of {} "
+      "per frame on {}, and y is this number on {}. The points scatter about the line by {:.2g} %. "
+      "Pearson’s r is {:.4f} for x and y, and {:.4f} for their logarithms. {}</p>\n",
+      line.configurations, line.intercept, line.slope,
+      pair.signal == "cost" ? "instructions" : "nanoseconds", pair.device_a, pair.device_b,
+      100 * std::expm1(line.scale), line.pearson, line.rho,
       line.admitted()
           ? Html()
           : markup("<b class=\"cannot_judge\">Not judged</b>: {}", words::refusal(line)));
@@ -85,7 +87,7 @@ Html correlation_section(const PlanData& plan) {
                   "<h3>Comparison of the costs on different devices</h3><p>Each point is a "
                   "configuration. The horizontal axis is its cost on one device, and the vertical "
                   "axis is its cost on another device. The second figure shows the deviation of "
-                  "each point from the line.</p>") +
+                  "each point from the line that is fitted to the points.</p>") +
               judged;
   return text + folded("Other pairs of devices", shown);
 }

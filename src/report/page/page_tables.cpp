@@ -142,11 +142,11 @@ Html speed_of_light_section(const PlanData& plan) {
   if (rows.size() == 1) return {};
   return folded(
       "Speed of light: frame times relative to the time of the memory fetches alone",
-      markup(
-          "<p>The speed of light is the time for the same fetches and transfer-function look-ups "
-          "without any other work. It uses the same empty-space skipping, but no early ray "
-          "termination. A technique is hardly ever faster than this, unless its rays end "
-          "early.</p>") +
+      markup("<p>The speed of light is the time that the fetches and the transfer-function "
+             "look-ups of a technique take without any other work. It is measured with the same "
+             "empty-space skipping, but without early ray termination. A technique is hardly ever "
+             "faster than "
+             "the speed of light, unless its rays end early.</p>") +
           table(rows));
 }
 

@@ -121,8 +121,9 @@ std::string text_of(const StatisticWorth& worth) {
     case Worth::exact:
       return "exact";
     case Worth::counts:
-      return fmt::format("the driver reports the value of Triptych's counter '{}' instead",
-                         worth.counter);
+      return fmt::format(
+          "instead of this statistic, the driver reports the value of Triptych's counter '{}'",
+          worth.counter);
     case Worth::proportional:
       return fmt::format("always {:.4g} times the correct count", worth.low);
     case Worth::inflated:
