@@ -33,8 +33,8 @@ def analyse(dataset, references=None, seed=1):
     left_out, tables = [], {}
     tables["distributions"], tables["percentiles"], tables["histograms"] = distribution.distributions(dataset, seed)
     if tables["distributions"].empty:
-        left_out.append(("distribution",
-                         f"there are {len(dataset)} observations; at least {distribution.LEAST} that are not all equal are needed"))
+        left_out.append(("distribution", f"there are {len(dataset)} observations, but at least {distribution.LEAST} are needed, "
+                         "and not all may be equal"))
     tables.update(_correlate(dataset, references or {}, left_out))
     tables["means"] = _average(dataset, left_out)
     tables["predictions"], reason = prediction.predict(dataset, seed)
@@ -42,7 +42,7 @@ def analyse(dataset, references=None, seed=1):
         left_out.append(("prediction", reason))
     tables["camera_paths"] = views.path_tests(dataset, seed)
     if tables["camera_paths"].empty:
-        left_out.append(("camera paths against all views", "fewer than two paths"))
+        left_out.append(("camera paths compared with all views", "the data contain fewer than two paths"))
     tables.update(_stacks(dataset, left_out))
     tables["by_count"] = choice.by_count(dataset) if dataset.suite == "particles" else pd.DataFrame()
     tables["effects"] = choice.effects(dataset, splits.factors_of(dataset))
@@ -68,7 +68,7 @@ def _correlate(dataset, references, left_out):
             boxes.append({"factor": factor, **box})
             matrices.append(matrix)
         else:
-            left_out.append((f"correlation of {factor}", f"for no two of its {len(by_factor.levels)} levels are there "
+            left_out.append((f"correlation of {factor}", f"no two of its {len(by_factor.levels)} levels have "
                              f"{correlation.LEAST_PAIRS} common configurations whose values are not all equal"))
     if not factors:
         left_out.append(("correlation", "every factor has only one level"))

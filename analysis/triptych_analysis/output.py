@@ -44,7 +44,8 @@ def summary(of):
     for each in of.table("camera_paths").itertuples():
         if each.subsets_of == "samples":
             lines.append(f"  {each.path} compared with all views: D = {each.d:.3f}, p = {each.p:.2g} ({each.samples} of "
-                         f"{each.all_samples} samples); {each.rejected} of {each.subsets} random samples are rejected")
+                         f"{each.all_samples} samples); "
+                         f"the test rejects {each.rejected} of {each.subsets} random samples of this size")
     for each in of.table("stacks").itertuples():
         lines.append(f"  Pearson's r between two sizes of {each.name}: mean {each.mean:.3f}, minimum {each.minimum:.3f} "
                      f"({each.levels} sizes)")
