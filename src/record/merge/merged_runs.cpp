@@ -58,11 +58,11 @@ void require_same_plan(const Found<Run>& known, const Run& run, const fs::path& 
   if (run.checks != known.value.checks) {
     throw core::InputError(
         {.file = file.string()},
-        fmt::format("contains results for plan {} with the checks {}, but {} contains results for "
-                    "the same plan with the checks {}; measure both with --timed or both without "
-                    "it",
-                    run.plan, text_of(run.checks), known.file.string(),
-                    text_of(known.value.checks)));
+        fmt::format(
+            "contains results for plan {} with the checks {}, but {} contains results for "
+            "the same plan with the checks {}; measure both stores with --timed, or both without "
+            "it",
+            run.plan, text_of(run.checks), known.file.string(), text_of(known.value.checks)));
   }
 }
 

@@ -52,7 +52,8 @@ constexpr std::array files{
          "techniques, also a C program that draws the frame; `compile.sh` compiles the device "
          "code"},
     File{"dump/pixel.txt",
-         "the device's intermediate results for one wrong pixel, with the first difference marked"},
+         "the device's intermediate results for one wrong pixel; the first difference from the "
+         "reference is marked"},
 };
 
 std::string list_of_files(const BugReport& report) {

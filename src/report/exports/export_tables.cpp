@@ -172,7 +172,7 @@ class Tables {
   Tables(const std::filesystem::path& folder, const RecordNames& names,
          const ExportRequest& request)
       : runs_(folder, "runs", "one `triptych run` per row", run_columns()),
-        devices_(folder, "devices", "one device of a run per row", device_columns()),
+        devices_(folder, "devices", "one device in one run per row", device_columns()),
         clocks_(folder, "clocks", "one device clock for one kind of work per row", clock_columns()),
         records_(folder, "records", "one configuration on one device in one run per row",
                  record_columns(names)),
@@ -185,7 +185,7 @@ class Tables {
         cost_(folder, "cost", "one part of a record's cost per row", cost_columns()),
         code_(folder, "code", "one compiler statistic of one shader stage or kernel per row",
               code_columns()),
-        energy_(folder, "energy", "one energy meter of a record per row", energy_columns()),
+        energy_(folder, "energy", "one energy meter for one record per row", energy_columns()),
         errors_of_(request.errors) {
     if (errors_of_) {
       errors_.emplace(folder, "errors", "one error metric of one record's image per row",

@@ -248,14 +248,16 @@ std::string refusal(const judge::CorrelationLine& line) {
       return fmt::format("the devices have {} configurations in common, but {} are needed",
                          line.configurations, LineModel::least_configurations);
     case LineRefusal::low_correlation:
-      return fmt::format("the correlation of the logarithms is {:.3f}, but at least {} is needed",
-                         line.rho, LineModel::least_rho);
+      return fmt::format(
+          "the correlation of the logarithms of the values is {:.3f}, but at least {} is needed",
+          line.rho, LineModel::least_rho);
     case LineRefusal::slope_out_of_range:
-      return fmt::format("the slope is {:.3f}, outside the range {} to {}", line.slope,
-                         LineModel::least_slope, LineModel::largest_slope);
+      return fmt::format("the slope of the fitted line is {:.3f}, outside the range {} to {}",
+                         line.slope, LineModel::least_slope, LineModel::largest_slope);
     case LineRefusal::large_scatter:
-      return fmt::format("the scatter of the logarithms is {:.3f}, but at most {} is allowed",
-                         line.scale, LineModel::largest_scale);
+      return fmt::format(
+          "the scatter of the logarithms of the values is {:.3f}, but at most {} is allowed",
+          line.scale, LineModel::largest_scale);
   }
   return {};
 }
