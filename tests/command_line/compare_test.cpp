@@ -51,7 +51,8 @@ TEST_F(Compare, FindsFivePercentInBothDirections) {
   const Result slower = compare(b_as(1.05));
   expect_verdict(slower, 1, "FAIL: 1 slower");
   EXPECT_NE(slower.output.find(" ms ("), std::string::npos) << slower.output;
-  EXPECT_NE(slower.output.find("5 fresh process runs"), std::string::npos) << slower.output;
+  EXPECT_NE(slower.output.find("5 repetitions in new processes"), std::string::npos)
+      << slower.output;
   expect_verdict(compare(b_as(1 / 1.05)), 0, "PASS: 1 faster");
 }
 
