@@ -67,8 +67,8 @@ int open_root(const fs::path& root) {
   const struct stat status = status_of(fd.get(), root);
   if ((status.st_mode & others_write) != 0 && (status.st_mode & S_ISVTX) == 0) {
     refuse(root,
-           "other users can write to this folder and rename files in it, because its sticky bit "
-           "is not set");
+           "other users can write to this folder, and because its sticky bit is not set, they can "
+           "also rename the files in it");
   }
   return fd.release();
 }

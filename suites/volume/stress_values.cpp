@@ -93,8 +93,10 @@ StressScene stress_infinite(std::string_view variant) {
   StressScene scene = with_block(plus ? infinite : -infinite, 3);
   scene.expectations = {same_bits_as(
       plus ? "stress:infinite:upper" : "stress:infinite:lower",
-      "an image that is bit-identical to the image of a volume with this end of the value range "
-      "instead of ∞")};
+      plus ? "an image that is bit-identical to the image of a volume with the upper end of the "
+             "value range instead of ∞"
+           : "an image that is bit-identical to the image of a volume with the lower end of the "
+             "value range instead of −∞")};
   return scene;
 }
 

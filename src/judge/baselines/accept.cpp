@@ -150,7 +150,8 @@ NextFolder next_of(const Baselines& stored, const AcceptRequest& request) {
   if (!stored.problem().empty()) {
     if (request.drop && request.only.empty()) return next;
     throw core::InputError(fmt::format(
-        "{}: {}; restore the baselines from version control, or accept a whole run with --drop",
+        "{}: {}; restore the baselines from version control, or discard all of them by accepting a "
+        "complete run with --drop",
         stored.folder().string(), stored.problem()));
   }
   for (const auto& [name, hash] : stored.manifest().files) {

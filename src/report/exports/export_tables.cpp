@@ -173,7 +173,10 @@ class Tables {
          const ExportRequest& request)
       : runs_(folder, "runs", "one `triptych run` per row", run_columns()),
         devices_(folder, "devices", "one device in one run per row", device_columns()),
-        clocks_(folder, "clocks", "one device clock for one kind of work per row", clock_columns()),
+        clocks_(
+            folder, "clocks",
+            "one row for each device and kind of work, with the calibration of the device clock",
+            clock_columns()),
         records_(folder, "records", "one configuration on one device in one run per row",
                  record_columns(names)),
         samples_(folder, "samples", "one timed frame on one clock per row", sample_columns()),
