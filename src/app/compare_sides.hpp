@@ -1,5 +1,5 @@
 #pragma once
-// The two sides of a comparison, as specified on the command line.
+// The two sides of a comparison (two devices, drivers or builds), as specified on the command line.
 
 #include <cstdint>
 #include <string>

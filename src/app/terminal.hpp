@@ -17,8 +17,8 @@
 namespace triptych::app {
 
 // Names and messages may come from untrusted sources. Their control characters are escaped, and
-// very long strings are cut. Only the format string may contain characters that move the cursor or
-// end a line.
+// very long strings are truncated. Only the format string may contain characters that move the
+// cursor or end a line.
 template <typename Arg>
 auto shown(const Arg& arg) {
   if constexpr (std::convertible_to<const Arg&, std::string_view>) {

@@ -44,9 +44,10 @@ enum class Subject : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Subject subject);
 
-// The cause of a difference. report/words/ has one sentence for each cause. The square brackets
-// list the members of Difference that contain the data of a cause: entries of `numbers` in quotes,
-// entries of `facts` in <angle brackets>, and other members by their names.
+// The cause of a difference between the two sides of a comparison, such as two devices or two
+// stores. report/words/ has one sentence for each cause. The square brackets list the members of
+// Difference that contain the data of a cause: entries of `numbers` in quotes, entries of `facts`
+// in <angle brackets>, and other members by their names.
 enum class DifferenceCause : std::uint8_t {
   ended,                   // a side did not measure the configuration [sides: the outcome]
   only_one_side,           // only one side has the configuration [side]

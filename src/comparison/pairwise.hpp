@@ -1,7 +1,8 @@
 #pragma once
-// Decides from interleaved A/B measurements whether one side is slower. The input is a list of
-// differences d = ln t(b) − ln t(a), one for each block of batches (measure/run/interleaved.hpp),
-// where t is the frame time of a side. A positive d means that b is slower.
+// Decides from interleaved measurements of two sides a and b, such as two drivers, whether one of
+// them is slower. The input is a list of differences d = ln t(b) − ln t(a), one for each block of
+// batches (measure/run/interleaved.hpp), where t is the frame time of a side. A positive d means
+// that b is slower.
 
 #include <array>
 #include <cstddef>

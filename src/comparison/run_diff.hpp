@@ -34,7 +34,8 @@ struct ConfigurationDiff {
 
 struct RunDiff {
   std::vector<Difference> device;  // differences between the devices, such as in their limits
-  // The configurations of run a in their order, followed by the configurations that only run b has.
+  // The configurations of run a, in the order of their records, and then the configurations that
+  // only run b has.
   std::vector<ConfigurationDiff> configurations;
 };
 

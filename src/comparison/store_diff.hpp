@@ -24,7 +24,7 @@ struct DeviceChange {
 // Groups the differences, so that a difference that occurs in several configurations is reported
 // only once.
 [[nodiscard]] std::vector<DifferenceGroup> groups_of(const DeviceChange& change);
-// Returns whether any configuration was measured on both sides.
+// Returns whether at least one configuration was measured in both stores.
 [[nodiscard]] bool was_measured(const DeviceChange& change);
 
 // A plan, or a device in a plan, that exists in only one of the two stores.
@@ -39,9 +39,9 @@ struct StoreDiff {
   std::vector<DeviceChange> devices;
   std::vector<OnlyOne> only_one;
 
-  // Returns `regression` if there is a regression. Otherwise, returns `cannot_judge` if no
-  // configuration was measured on both sides, if a plan or device exists in only one of the stores,
-  // or if a difference could not be judged.
+  // Returns `regression` if there is a regression. Otherwise, returns `cannot_judge` if the
+  // stores have no measured configuration in common, if a plan or device exists in only one of the
+  // stores, or if a difference could not be judged.
   [[nodiscard]] core::ExitCode exit_code() const;
 };
 

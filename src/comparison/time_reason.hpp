@@ -14,9 +14,9 @@
 
 namespace triptych::comparison {
 
-// The reason why there is no verdict on a time. The square brackets list the members of TimeReason
-// that contain the data of a cause: entries of `numbers` in quotes, and other members by their
-// names.
+// The reason why there is no verdict on a time. The two sides a and b of a comparison are, for
+// example, two devices or two drivers. The square brackets list the members of TimeReason that
+// contain the data of a cause: entries of `numbers` in quotes, and other members by their names.
 enum class TimeCause : std::uint8_t {
   none,
   side_ended,             // a side did not measure the configuration [side, outcome, reason]

@@ -1,4 +1,4 @@
-// Measures interleaved frame times for the two sides of a comparison.
+// Measures interleaved frame times of the two sides of a comparison (devices, drivers or builds).
 
 #include "comparison/times.hpp"
 
@@ -258,7 +258,7 @@ class Timer {
     }
   }
 
-  // Restarts both sides. Returns whether fresh process runs can be measured.
+  // Starts new workers for both sides. Returns whether fresh process runs can be measured.
   bool restarted() {
     held_ = nullptr;
     try {

@@ -1,5 +1,6 @@
 #pragma once
-// The second half of a comparison, which measures interleaved frame times of both sides.
+// The second half of a comparison, which measures interleaved frame times of the two compared
+// devices, drivers or builds (sides a and b).
 
 #include <vector>
 

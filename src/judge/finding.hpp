@@ -1,7 +1,7 @@
 #pragma once
 // The judge's findings, as data. report/words/ turns each cause into a sentence. No code compares
-// `detail`, because it quotes drivers, libraries and people. docs/report.md describes the JSON form
-// of a finding.
+// `detail`, because it contains text that drivers, libraries and people wrote. docs/report.md
+// describes the JSON form of a finding.
 
 #include <cstdint>
 #include <map>

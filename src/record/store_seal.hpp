@@ -18,7 +18,8 @@ namespace triptych::record {
 [[nodiscard]] std::string seal_of(const Record& record);
 [[nodiscard]] std::string seal_of(const TruthImage& truth);
 
-// Throws the InputError "WHAT was changed after it was written" if the two seals differ.
+// Throws an InputError if the two seals differ. Its message begins with `what`: if `what` is "image
+// '5f0c'", the message is "image '5f0c' was changed after it was written".
 void require_seal(std::string_view stored, std::string_view found, const std::string& what);
 
 }  // namespace triptych::record

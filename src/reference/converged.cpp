@@ -122,9 +122,12 @@ class ConvergedRaycaster {
     const Rgba lower = table_.at(entry);
     const Rgba upper = table_.at(entry + 1.0);
     const auto point_at = [&](double s) {
-      // The opacity may be 1 at an entry, so f, the position between the two entries, is kept away
-      // from both of them. Otherwise, an opaque sliver of the ray would hide everything behind it,
-      // although the sliver may exist only because the position of a cut has an error of 2⁻⁴⁰.
+      // f is the position between the two entries. The ray is cut where the value passes an entry,
+      // but a cut has a position error of 2⁻⁴⁰, which can create a sliver of this length that does
+      // not exist. If f were 0 or 1 on the sliver, and the entry there had opacity 1, the sliver
+      // would hide everything behind it. The margin keeps f away from 0 and 1. Between an opaque
+      // entry and one that is not opaque, it thereby limits the extinction to a few dozen per voxel
+      // length, with which so short a sliver absorbs nearly nothing.
       constexpr double margin = 0x1.0p-44;
       const double f = std::clamp(cell.knot(s) - entry, margin, 1.0 - margin);
       Rgba rgba;

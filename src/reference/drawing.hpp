@@ -53,8 +53,8 @@ auto with_stored_type(scene::VoxelFormat format, Function&& function) {
   return function(float{});
 }
 
-// Returns, for each axis, the factor that converts the derivative per voxel along this axis to the
-// derivative per smallest spacing.
+// Returns, for each axis, the factor that converts the derivative per voxel length along this axis
+// to the derivative per smallest spacing.
 inline glm::dvec3 gradient_scale(const scene::VoxelGrid& grid) {
   const double smallest = *std::min_element(grid.spacing.begin(), grid.spacing.end());
   return {smallest / grid.spacing[0], smallest / grid.spacing[1], smallest / grid.spacing[2]};

@@ -69,8 +69,8 @@ struct StepPath {
 //     from a straight line by at most Δ²/(8·(1 − α)²), where α is the largest opacity in the cell
 //     and Δ the rise of the opacity over the cell. This deviation is treated like a change of
 //     weights. A device computes the mean of ln(1 − α) by a series, which it truncates after r¹²
-//     with r = Δ/(2·(1 − α)). That loses r¹⁴/(210·(1 − r²)) of the optical depth per voxel, at most
-//     0.038.
+//     with r = Δ/(2·(1 − α)). That loses r¹⁴/(210·(1 − r²)) of the optical depth per voxel length,
+//     at most 0.038.
 //   - Lengths. A device's cells are longer or shorter than the exact cells by a factor of at most
 //     1/(1 − 2e/|to − from|). If this factor is more than 2, the path hardly leaves a cell, and the
 //     colour range R of the path bounds the error.
@@ -127,7 +127,7 @@ class PreintegrationBound {
   double least_ = 0;         // smallest optical depth of the pieces so far on any device
   double most_ = 0;          // largest optical depth of the pieces so far on any device
   double depth_ = 0;         // exact optical depth of the pieces so far
-  double tails_ = 0;         // truncation errors of the series, per voxel
+  double tails_ = 0;         // truncation errors of the series, per voxel length
   double front_ = 1;         // largest share of the light that is left behind the pieces so far
   double front_before_ = 1;  // front_ before the most recent piece
   std::size_t added_ = 0;

@@ -19,7 +19,7 @@ struct KindRow {
   std::string_view kind;     // "Images"
   std::string_view verdict;  // "FAIL", "pass", "no verdict", "waived", "–"
   judge::Verdict worst;      // Verdict::skipped if there is no verdict
-  std::string sentence;      // quotes drivers, so callers must escape it
+  std::string sentence;      // contains messages from drivers, so callers must escape it
 };
 
 struct Cause {

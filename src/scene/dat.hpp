@@ -16,7 +16,7 @@ namespace triptych::scene {
 // clang-format on
 // TimeStep, TaggedFileName, NbrTags, ObjectType, ObjectModel, GridType and Modality are accepted
 // and ignored. Any other key is an error, as is extra data after the voxels. The caller sets the
-// volume's name. Throws InputError with the line, and IoError.
+// volume's name. Throws InputError with the number of the line, and IoError.
 [[nodiscard]] Volume read_dat(const std::filesystem::path& file, const Component& component = {});
 
 }  // namespace triptych::scene

@@ -10,7 +10,7 @@ namespace triptych::scene {
 // names). A volume has three dimensions. A fourth dimension is read as components, like the
 // channels of a voxel. The data are binary or ASCII, in either byte order, compressed or not. The
 // volume is not rotated into patient space. Keys that do not affect the voxels are ignored. Throws
-// InputError with the line, and IoError. The caller sets the volume's name.
+// InputError with the number of the line, and IoError. The caller sets the volume's name.
 [[nodiscard]] Volume read_metaimage(const std::filesystem::path& file,
                                     const Component& component = {});
 

@@ -23,8 +23,8 @@ struct Field {
 // The fields of a header, by their canonical names.
 class Header {
  public:
-  // Reads a header. Throws InputError with the line if the header is not supported or if a field
-  // appears twice, and IoError if the file cannot be read.
+  // Reads a header. Throws InputError with the line number if the header is not supported or if a
+  // field appears twice, and IoError if the file cannot be read.
   explicit Header(const std::filesystem::path& file);
 
   [[nodiscard]] const Field* find(const std::string& name) const {

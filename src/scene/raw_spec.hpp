@@ -1,5 +1,5 @@
 #pragma once
-// Voxels without a header, whose size is stated after the file's name.
+// Parses FILE:SIZE:TYPE, which names a file of voxels without a header and describes its contents.
 
 #include <optional>
 #include <string>

@@ -25,8 +25,8 @@ struct ControlPoint {
   std::array<double, 4> rgba{};
 };
 
-// The opacities are a few per cent per voxel, so that the background is visible even through a
-// hundred voxels. The lowest eighth, which usually represents air in scans, is fully transparent.
+// The opacities are a few per cent per voxel length, so that the background is visible even through
+// a hundred voxels. The lowest eighth, which usually represents air in scans, is fully transparent.
 constexpr std::array<ControlPoint, 7> haze{{
     {0.00, {0.05, 0.10, 0.30, 0}},
     {0.125, {0.08, 0.20, 0.55, 0}},
@@ -37,9 +37,9 @@ constexpr std::array<ControlPoint, 7> haze{{
     {1.00, {1.00, 0.90, 0.80, 0.060}},
 }};
 
-// The opacity per voxel has peaks at 0.40 and at 0.54, and is at least 0.80 from 0.68 on, so that a
-// shell becomes opaque within a few voxels. The values between the shells are transparent. So are
-// the values below them, because the lowest third is air and noise in most scans.
+// The opacity per voxel length has peaks at 0.40 and at 0.54, and is at least 0.80 from 0.68 on, so
+// that a shell becomes opaque within a few voxels. The values between the shells are transparent.
+// So are the values below them, because the lowest third is air and noise in most scans.
 constexpr std::array<ControlPoint, 12> surfaces{{
     {0.00, {0.80, 0.45, 0.30, 0}},
     {0.35, {0.85, 0.52, 0.36, 0}},

@@ -37,7 +37,7 @@ struct Shading {
 //     (kinks.hpp). On each piece, the two-point Gauss rule computes the optical depth. The colour
 //     is assumed to change linearly with the optical depth, through the colours at the two Gauss
 //     points. Shading uses the gradients at these points. An opacity of 1 counts as an extinction
-//     of 8192·ln 2 per voxel.
+//     of 8192·ln 2 per voxel length.
 enum class Quadrature : std::uint8_t { midpoint, preintegrated, cells };
 [[nodiscard]] std::string_view name_of(Quadrature quadrature);
 [[nodiscard]] Quadrature quadrature(std::string_view name);  // throws InputError

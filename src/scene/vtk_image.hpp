@@ -13,7 +13,7 @@ namespace triptych::scene {
 
 // Reads VTK's legacy format (.vtk), ASCII or BINARY, with the dataset STRUCTURED_POINTS. The first
 // array is drawn: SCALARS, COLOR_SCALARS, VECTORS, NORMALS, or the first array of a FIELD. Throws
-// InputError with the line, and IoError. The caller sets the volume's name.
+// InputError with the number of the line, and IoError. The caller sets the volume's name.
 [[nodiscard]] Volume read_vtk(const std::filesystem::path& file, const Component& component = {});
 
 }  // namespace triptych::scene

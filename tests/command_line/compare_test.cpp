@@ -1,4 +1,5 @@
-// Compares two scripted sides with known speeds, whose measurements are interleaved.
+// Compares two devices that follow a script with known speeds, and whose frames are drawn
+// alternately.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

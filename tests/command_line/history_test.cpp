@@ -1,4 +1,4 @@
-// Tests `triptych history`, which compares the stores of several days in their order.
+// Tests `triptych history`, which compares the stores of several days in chronological order.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -68,7 +68,7 @@ TEST_P(Selected, InListRunGateAndCompare) {
   EXPECT_THAT(judged.output, HasSubstr("only part of the plans"));
   const Result compared =
       program.run("compare volume/quick --no-times --a null:scripted --b null:scripted" + chosen);
-  // The scripted device draws a pattern, so every image is wrong on both sides.
+  // The scripted device draws a pattern, so every image is wrong.
   EXPECT_THAT(compared.output, HasSubstr("image: in 2 configurations, for example in "));
 }
 

@@ -149,11 +149,11 @@ TEST(Cells, AreCloserToTheLimitThanManySamples) {
   });
 }
 
-// Mesa 22.3 silently ends all loops of a shader invocation after 65,535 iterations. In this scene,
-// each ray consists of many shaded pieces (the parts of the ray that are integrated one by one),
-// and the shader used to compute the highlight of each piece with a loop. Rays therefore ended too
-// early. The error bound of a shaded image is too wide to reveal such rays, so this test limits the
-// RMS difference from the reference image instead.
+// llvmpipe and lavapipe from Mesa 22.3 silently end all loops of a shader invocation after 65,535
+// iterations. In this scene, each ray consists of many shaded pieces (the parts of the ray that are
+// integrated one by one), and the shader used to compute the highlight of each piece with a loop.
+// Rays therefore ended too early. The error bound of a shaded image is too wide to reveal such
+// rays, so this test limits the RMS difference from the reference image instead.
 TEST(Cells, AllOfManyShadedPiecesAreDrawn) {
   on_every_driver([](measure::Device& device) {
     scene::VolumeScene scene = cells_scene("haze");

@@ -170,7 +170,7 @@ TEST(Particles, StructuresBuiltInEveryFrameAreBitIdentical) {
 }
 
 // All spheres on one pixel have the same depth, so none of them occludes the others, and there are
-// more nodes than one dispatch may visit on Mesa's software devices.
+// more nodes than one dispatch may visit on llvmpipe and lavapipe.
 TEST(Particles, ABeamThroughManyEqualSpheresFindsTheFirst) {
   on_every_driver([](measure::Device& device) {
     std::vector<std::array<double, 4>> spheres(60000, {0, 0, 0, 1});

@@ -123,7 +123,7 @@ const std::string& Baselines::problem() const {
       if (problem.empty()) problem = contradiction_in(folder_, manifest());
     } catch (const core::InputError&) {
       // The error is ignored here, because the check that reads the file reports it, together with
-      // the line.
+      // the line number.
     }
   }
   cache_->problem = std::move(problem);

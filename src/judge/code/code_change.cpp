@@ -100,13 +100,13 @@ void compare_executable(const std::string& name, const record::Executable& befor
                         const record::Executable& now, CodeComparison& comparison) {
   const bool counted = counts_instructions(before) && counts_instructions(now);
   const std::size_t first = comparison.changes.size();
-  // A statistic that only one side reports is missing on the other side, not zero, so it is not a
-  // change.
+  // `before` or `now` may lack a statistic that the other one contains. Because a missing statistic
+  // is not zero, this is not a change.
   for (const auto& [statistic, value] : now.statistics) {
     const auto old = before.statistics.find(statistic);
     if (old == before.statistics.end() || old->second == value) continue;
     CodeStatistic meaning = code_statistic(statistic);
-    // If one side does not report the number of instructions, a change in the code size affects the
+    // If `before` or `now` lacks the number of instructions, a change in the code size affects the
     // verdict instead.
     if (!counted && meaning.rank == quantity::code_size.rank) meaning.decides = true;
     comparison.changes.push_back({.executable = name,
@@ -115,9 +115,10 @@ void compare_executable(const std::string& name, const record::Executable& befor
                                   .before = old->second,
                                   .now = value});
   }
-  // If both sides report the number of instructions, but only the code size changed, then only the
-  // encodings of the instructions or the waits between them differ. Such a change is dropped,
-  // because the waits that LLVM inserts differ from run to run (measure/code/compiled_code.cpp).
+  // If both executables report the number of instructions, but only the code size changed, then
+  // only the encodings of the instructions or the waits between them differ. Such a change is
+  // dropped, because the waits that LLVM inserts differ from run to run
+  // (measure/code/compiled_code.cpp).
   const bool same_instructions =
       counted &&
       std::ranges::all_of(

@@ -28,8 +28,8 @@ struct CodeTotal {
 
 class CodeTotals {
  public:
-  // Adds the statistics of one configuration. Executables and statistics that only one side has are
-  // left out.
+  // Adds the statistics of one configuration. Executables and statistics that only `before` or
+  // only `now` contains are left out.
   void add(const std::string& configuration, const record::Code& before, const record::Code& now);
 
   // Returns the totals. The keys are the names that Mesa developers use.

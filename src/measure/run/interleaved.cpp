@@ -161,8 +161,8 @@ Interleaved::Interleaved(InterleavedOptions options, const SideOptions& a, const
   }
   slots_[0] = std::make_unique<Slot>(Side::a, a, options_, interrupts_);
   slots_[1] = std::make_unique<Slot>(Side::b, b, options_, interrupts_);
-  // Opens the sides one after the other, so that neither side disturbs the clock calibration of the
-  // other side.
+  // Opens the workers of the two compared sides one after the other. Each worker calibrates its
+  // clocks while it is opened, and the other worker would disturb the calibration.
   for (const auto& each : slots_) {
     if (!each->open()) throw record::NotMeasured(record::Outcome::skipped, each->why_closed());
   }

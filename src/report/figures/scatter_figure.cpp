@@ -88,7 +88,7 @@ class Scatter {
     const auto [first, last] = ends();
     figure.line(std::array{Figure::Place{first, deviation}, Figure::Place{last, deviation}}, style);
   }
-  // Two points are enough, because the line is straight on logarithmic axes.
+  // Two points are enough, because the fitted line is straight on logarithmic axes.
   void add_line(Figure& figure) const {
     if (!scatter_.line) return;
     const auto at = [&](double x) {

@@ -1,6 +1,6 @@
 #pragma once
-// Sentences about a group of findings with the same cause, and about exit codes. They quote drivers
-// and data, so callers must escape them.
+// Sentences about a group of findings with the same cause, and about exit codes. They contain
+// messages from drivers and names of data files, so callers must escape them.
 
 #include <string>
 #include <string_view>

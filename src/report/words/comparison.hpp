@@ -1,6 +1,6 @@
 #pragma once
-// All sentences about comparisons of two devices, drivers, builds or stores. They quote drivers and
-// name data, so callers must escape them for the output format.
+// All sentences about comparisons of two devices, drivers, builds or stores. The sentences contain
+// messages from drivers and names of data files, so callers must escape them for the output format.
 //
 // To add a cause, add a value to comparison::DifferenceCause or TimeCause, a row to its table of
 // names (comparison/difference.cpp), and a case to the switch in words/comparison.cpp.

@@ -1,6 +1,6 @@
 #pragma once
-// All sentences about findings, verdicts and advice. They quote drivers and name data, so callers
-// must escape them for the output format.
+// All sentences about findings, verdicts and advice. The sentences contain messages from drivers
+// and names of data files, so callers must escape them for the output format.
 //
 // To add a cause, add a value to judge::Cause and to its table of names (judge/finding.cpp), and a
 // case to the switch in words/observation.cpp. The compiler warns if the switch lacks the value.

@@ -1,6 +1,7 @@
 #pragma once
-// Sentences about how a configuration or a device ended, and about how exactly a driver counts a
-// statistic. They quote drivers, so callers must escape them.
+// Sentences about the outcome of measuring a configuration (crashed, skipped, …), and about how
+// exactly a driver counts a statistic. The sentences contain messages from drivers, so callers must
+// escape them.
 
 #include <string>
 

@@ -45,7 +45,7 @@ class Hierarchy {
   [[nodiscard]] std::uint32_t leaf_begin(std::uint32_t leaf) const noexcept;
   // Returns the number of runs into which the radix sort divides the particles, with one invocation
   // for each run. There are at most 1,024 runs, so that the loop over their counts stays below
-  // Mesa's limit on loop iterations (technique/volume/long_rays.hpp).
+  // the limit of llvmpipe and lavapipe on loop iterations (technique/volume/long_rays.hpp).
   [[nodiscard]] std::uint32_t runs() const noexcept;
 
   // The sizes of the buffers in words of four bytes. Each is at least 4, because no API allows an

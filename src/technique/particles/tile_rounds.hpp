@@ -52,8 +52,8 @@ struct TileRounds {
 }
 
 // The maximum number of large spheres in a round, unless a single cell has more. It keeps the loop
-// over a tile's entries (the large spheres that reach it) below Mesa's limit on loop iterations
-// (docs/accuracy.md).
+// over a tile's entries (the large spheres that reach it) below the limit of llvmpipe and lavapipe
+// on loop iterations (docs/accuracy.md).
 inline constexpr std::uint64_t most_large_spheres = 32000;
 
 // Divides the cells into rounds. Early rounds hide spheres of later rounds, but each round costs a
@@ -66,8 +66,8 @@ inline constexpr std::uint64_t most_large_spheres = 32000;
                                      std::uint64_t most_entries);
 
 // Returns why a scene with these rounds cannot be drawn, or nullopt if it can be drawn. An
-// invocation loops over the tiles of up to 32 spheres, and Mesa ends long loops without an error
-// (long_rays.hpp).
+// invocation loops over the tiles of up to 32 spheres, and llvmpipe and lavapipe end long loops
+// without an error (technique/volume/long_rays.hpp).
 [[nodiscard]] std::optional<std::string> passes_reason(const TileRounds& rounds);
 
 }  // namespace triptych::technique

@@ -29,8 +29,8 @@ enum class BrickKind : std::int32_t {
 //
 // Derivation. Let a ray cross merged bricks. For each crossing, l is its length in voxels, A' is
 // its opacity, and T' is the transmittance in front of it. a ≤ b are the smallest and the largest
-// extinction per voxel in the brick, and w is the range of its colours. R is the range of all
-// possible colours, and ΔA is the change of A' that is caused by merging. By the identity in
+// extinction per voxel length in the brick, and w is the range of its colours. R is the range of
+// all possible colours, and ΔA is the change of A' that is caused by merging. By the identity in
 // reference/composite.hpp, one crossing changes the image by at most
 //   T'·(R·|ΔA| + w·A'),   |ΔA| ≤ e^(−al) − e^(−bl) ≤ (b − a)·l·e^(−al).
 // Two facts bound the sum along the ray: Σ T'·A' ≤ 1, and Σ l ≤ L, where L is the longest chord of

@@ -19,9 +19,9 @@ namespace triptych::technique {
 // transmits 2^−d of the light. a0, a1 and a2 are the first Legendre coefficients of the colour as a
 // function of the share of the depth that the light has passed. For a path without any depth, they
 // represent the colour of the entry `from`. An entry of opacity 1 counts as an optical depth of
-// 8192 per voxel, so that 1/64 voxel hides everything behind it. The table is computed in double
-// precision, so its only error is the rounding to float. It depends on the transfer function but
-// not on the step.
+// 8192 per voxel length, so that 1/64 voxel length hides everything behind it. The table is
+// computed in double precision, so its only error is the rounding to float. It depends on the
+// transfer function but not on the step.
 inline constexpr std::size_t texels_per_pair = 3;
 [[nodiscard]] std::vector<std::array<float, 4>> preintegrated_pairs(
     const scene::TransferFunction& function);

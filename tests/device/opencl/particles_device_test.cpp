@@ -59,7 +59,7 @@ TEST(OpenClParticles, SpritesFollowTheFillRule) {
     EXPECT_EQ(counts.at("vertices"), 4U);
     EXPECT_EQ(counts.at("sprites"), 1U);
     EXPECT_EQ(counts.at("visible_ids"), 1U);
-    // S6: the area of an n-gon around a disc is n·tan(π/n)/π times the area of the disc. Here, the
+    // The area of an n-gon around a disc is n·tan(π/n)/π times the area of the disc. Here, the
     // disc has the sphere's radius 1 and lies at the distance 3·(1 − 1/1024), just in front of the
     // sphere. At this distance, the cone of all rays that touch the sphere has the radius
     // `silhouette`. Fragments outside of the cone are not kept.

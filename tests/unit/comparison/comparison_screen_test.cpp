@@ -62,7 +62,7 @@ TEST(ComparisonScreen, ShowsTheVariablesOfASide) {
               HasSubstr("WIDTH=128\nb: the same, but WIDTH=256\n"));
 }
 
-// Neither side supports the only configuration.
+// Neither of the two compared devices supports the only configuration.
 TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
   ComparisonResult result;
   Compared skipped;

@@ -117,8 +117,9 @@ TEST(SignedRank, TiesNarrowTheApproximation) {
   std::vector<double> values(20, 1.0);
   values.insert(values.end(), 20, -2.0);
   const double variance = 40.0 * 41 * 81 / 24 - 2 * (8000.0 - 20) / 48;
-  // The positive differences have the 20 smallest magnitudes, so their ranks add up to 210. The
-  // expected sum is 410.
+  // The positive differences have the 20 smallest magnitudes, so their ranks add up to 210. If
+  // positive and negative differences were equally likely, the mean of this sum would be
+  // n(n+1)/4 = 410.
   const double z = (210.0 - 410 + 0.5) / std::sqrt(variance);
   EXPECT_NEAR(wilcoxon_signed_rank(values).p_less, estimation::student_t_upper_tail(-z, INFINITY),
               1e-12);
@@ -146,8 +147,8 @@ TEST(Shift, TooFewDifferencesHaveAnInfiniteInterval) {
   EXPECT_TRUE(std::isnan(estimate_shift({}, 0.01).estimate));
 }
 
-// Simulates a comparison on one machine. Both sides share a slow drift, which is AR(1) from batch
-// to batch. Each batch has its own noise, and other programs disturb some batches.
+// Simulates a comparison of two programs on one machine. They share a slow drift, which is AR(1)
+// from batch to batch. Each batch has its own noise, and other programs disturb some batches.
 struct Machine {
   double noise = 0.01;
   double drift = 0.01;        // standard deviation of the drift
@@ -203,8 +204,9 @@ Outcomes repeat(const Machine& machine, double shift, int times, std::uint64_t s
   return outcomes;
 }
 
-// The design limits the probability of a wrong verdict to α = 0.01 on each side. With a probability
-// above 0.99, there are then at most 8 wrong verdicts in 300 repetitions.
+// The design limits the probability of a wrong verdict to α = 0.01, separately for `slower`
+// and for `faster`. With a probability above 0.99, there are then at most 8 wrong verdicts in 300
+// repetitions.
 constexpr int repetitions = 300;
 constexpr int most_errors = 8;
 

@@ -217,7 +217,9 @@ TEST(NewDevice, UncorrelatedCostsAreRejected) {
   EXPECT_TRUE(named(result).empty());
 }
 
-// If two devices were accepted, the one whose costs scatter less around the line is used.
+// If two devices were accepted, a line is fitted to the costs of the new device as a function of
+// the costs of each accepted device. The new device is compared with the accepted device around
+// whose line the costs scatter less.
 TEST(NewDevice, IsComparedWithTheDeviceOfLeastScatter) {
   CorrelationWorld world(11);
   world.add_device(lavapipe, true, 0.1);

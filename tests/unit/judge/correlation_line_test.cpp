@@ -55,9 +55,9 @@ TEST(FitLine, TooFewPointsHaveNoLine) {
   EXPECT_FALSE(line_of(alike).admitted());
 }
 
-// If all configurations with one level of a factor are off the line by far more than the scatter,
-// the level is reported as one finding instead of many outliers. All other configurations are still
-// compared with the line.
+// If all configurations with one level of a factor are off the fitted line by far more than the
+// scatter, the level is reported as one finding instead of many outliers. All other configurations
+// are still compared with the line.
 TEST(OffTheLine, ALevelAndOneConfiguration) {
   CorrelationPair pair = pair_of(60);
   std::vector<Factors> factors;

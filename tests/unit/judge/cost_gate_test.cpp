@@ -16,7 +16,8 @@ class CostGateTest : public JudgeTest {
  protected:
   CostGateTest() { request_.checks = {Check::cost}; }
 
-  // Returns a change that gives every frame counts from one emulator, and then applies `change`.
+  // Returns a function that stores the same cost in every record, counted by one emulator, and then
+  // applies `change` to the record.
   static Tweak counted(const std::function<void(record::Record&)>& change = {}) {
     return [change](record::Record& record, core::Image&) {
       record.cost = {{"device_code", device_code},
@@ -192,7 +193,8 @@ TEST_F(CostGateTest, PreparationCostIsShown) {
   EXPECT_EQ(change_of(advice[0], "driver").now, 1200000);
 }
 
-// For a device with a different driver version, a single finding summarizes the known differences.
+// The driver version of the device differs from the accepted one, so the changes in cost are no
+// regressions. One advisory summarizes the changes in all configurations.
 TEST_F(CostGateTest, AnotherDriverVersionIsAdvice) {
   accept_first(counted());
   driver_versions_["vulkan:lavapipe"] = "23.0";

@@ -45,8 +45,8 @@ scene::VolumeScene lit_scene(const std::function<double(double)>& value) {
   return scene;
 }
 
-// Returns |gradient · direction| per voxel at the first sample, which lies half a step in front of
-// the eye.
+// Returns |gradient · direction| at the point p, where the gradient is the change of the value per
+// voxel length. Puts the eye half a step behind p, so that the first sample of the ray is at p.
 double steepness_at(scene::VolumeScene scene, const glm::dvec3& p, const glm::dvec3& direction) {
   scene.camera.eye = p - 0.5 * scene.step_voxels * direction;
   scene.camera.forward = direction;

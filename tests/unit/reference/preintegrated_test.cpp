@@ -59,8 +59,8 @@ TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
   EXPECT_NEAR(ramp.looked.colour[0], seen + left, 1e-6);
 }
 
-// Problem V3 has linear extinction and linear colour. Because the table stores opacity, extinction
-// deviates from a line by 1e-7 between entries.
+// Problem V3 (reference/closed_forms.hpp) has linear extinction and linear colour. Because the
+// table stores opacity, extinction deviates from a line by 1e-7 between entries.
 TEST(PreintegratedStep, IsV3WhereTheTableIsARamp) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {

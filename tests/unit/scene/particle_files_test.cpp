@@ -105,8 +105,8 @@ TEST(Pdb, RejectsBrokenFiles) {
   const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
   for (const std::string head : {"TITLE     A PROTEIN\n", "CRYST1   52.000   58.600   61.900\n",
                                  "HEADER    VESTA_phase_1\n"}) {
-    // Several programs write complete files without END, so only entries of the PDB itself must end
-    // with it.
+    // Several programs write complete files without END. Only files with the id of an entry in the
+    // Protein Data Bank in their HEADER must end with END, and these files have no such id.
     EXPECT_EQ(load("a.pdb", head + atom).count(), 1U);
     EXPECT_EQ(load("a.pdb", head + atom + "END\n").count(), 1U);
     EXPECT_EQ(load("a.pdb", head + "MODEL        1\n" + atom + "ENDMDL\n").count(), 1U);

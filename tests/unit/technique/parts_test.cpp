@@ -63,8 +63,8 @@ TEST(Parts, ContainEveryCellOnceWithItsSamples) {
   }
 }
 
-// Every ray must meet the parts in their order: the first part contains the eye, and each later
-// part continues upwards or downwards from there.
+// Every ray must meet the parts in the order in which they are drawn: the first part contains the
+// eye, and each later part continues upwards or downwards from there.
 TEST(Parts, BeginAtTheEyeAndGoOutwards) {
   for (const double eye : {-30.0, 0.0, 37.0, 50.0, 99.0, 200.0}) {
     const std::vector<Part> parts = cut(scene_of(eye), 20);

@@ -87,8 +87,8 @@ TEST(TileRounds, FewLargeSpheresAreDrawnDirectly) {
   }
 }
 
-// Mesa's drivers limit the iterations of a loop. A tile's loop over its entries must stay below
-// that limit.
+// llvmpipe and lavapipe limit the iterations of a loop. A tile's loop over its entries must stay
+// below that limit.
 TEST(TileRounds, ARoundHasAtMostAsManyLargeSpheresAsALoopAllows) {
   scene::ParticleScene scene = uniform(200000, 1000);
   scene.width = scene.height = 16;
