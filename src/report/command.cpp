@@ -17,10 +17,17 @@ namespace {
 constexpr std::array<std::string_view, 8> driver_settings{
     "GALLIUM_", "GALLIVM_", "LIBGL_ALWAYS_", "LP_", "MESA_", "POCL_", "RUSTICL_", "TRIPTYCH_"};
 
-bool names_no_code(const std::string& name, const std::string& value) {
+// Parts of the names of settings that name a file or folder, which the driver may overwrite.
+constexpr std::array<std::string_view, 5> file_settings{"_DIR", "_DUMP", "_FILE", "_PATH",
+                                                        "_TRACE"};
+
+bool names_no_file(const std::string& name, const std::string& value) {
   const bool setting = std::ranges::any_of(
       driver_settings, [&](std::string_view prefix) { return name.starts_with(prefix); });
-  return setting && core::is_shell_name(name) && value.find_first_of("/=") == std::string::npos;
+  const bool file = std::ranges::any_of(
+      file_settings, [&](std::string_view part) { return name.find(part) != std::string::npos; });
+  return setting && !file && core::is_shell_name(name) &&
+         value.find_first_of("/=") == std::string::npos;
 }
 
 bool is_set_here(const std::string& name, const std::string& value) {
@@ -33,7 +40,7 @@ bool is_set_here(const std::string& name, const std::string& value) {
 std::map<std::string, std::string> repeatable(std::map<std::string, std::string> environment) {
   std::erase_if(environment, [](const auto& variable) {
     const auto& [name, value] = variable;
-    return !names_no_code(name, value) && !is_set_here(name, value);
+    return !names_no_file(name, value) && !is_set_here(name, value);
   });
   return environment;
 }

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "findings.hpp"
+#include "report/command.hpp"
 
 namespace triptych::report {
 namespace {
@@ -192,6 +195,40 @@ TEST(FindingGroups, CorrelationFindingsAreOmittedIfTheCostExplainsThem) {
   findings.push_back(finding(regression, "gl:x", "step=2", off, Check::correlation));
   findings.push_back(finding(regression, "gl:y", "", off, Check::correlation));
   EXPECT_EQ(grouped(findings).size(), 3U);
+}
+
+// The variables come from a store, which anybody may have written.
+TEST(Repeatable, ContainsNoVariableThatCouldRunCodeOrWriteFiles) {
+  using Variables = std::map<std::string, std::string>;
+  const Variables harmless{
+      {"GALLIUM_DRIVER", "llvmpipe"}, {"LP_NUM_THREADS", "1"}, {"MESA_GL_VERSION_OVERRIDE", "3.3"}};
+  EXPECT_EQ(repeatable(harmless), harmless);
+  for (const auto& [name, value] : Variables{{"LD_PRELOAD", "evil.so"},
+                                             {"PATH", "."},
+                                             {"VK_DRIVER_FILES", "evil.json"},
+                                             {"OCL_ICD_VENDORS", "evil"},
+                                             {"LP_X;id", "1"},
+                                             {"LP_X $(id)", "1"},
+                                             {"LP_X", "/tmp/evil.so"},
+                                             {"LP_Y", "x=1"},
+                                             {"GALLIUM_LOG_FILE", "results.sqlite"},
+                                             {"GALLIUM_TRACE", "results.sqlite"},
+                                             {"MESA_SHADER_DUMP_PATH", ".."},
+                                             {"MESA_SHADER_CACHE_DIR", ".."},
+                                             {"TRIPTYCH_DUMP", ".."}}) {
+    EXPECT_EQ(repeatable({{name, value}}), Variables()) << name;
+  }
+  // A value that is set here anyway adds no risk.
+  ::setenv("VK_DRIVER_FILES", "mine.json", 1);
+  EXPECT_EQ(repeatable({{"VK_DRIVER_FILES", "mine.json"}}),
+            (Variables{{"VK_DRIVER_FILES", "mine.json"}}));
+  EXPECT_EQ(repeatable({{"VK_DRIVER_FILES", "evil.json"}}), Variables());
+  ::unsetenv("VK_DRIVER_FILES");
+
+  judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
+  quick.environments = {{"gl:x", {{"LD_PRELOAD", "evil.so"}, {"LP_X;id", "1"}}}};
+  EXPECT_THAT(command_of(finding(regression, "gl:x", "step=1"), quick),
+              testing::StartsWith("triptych render volume"));
 }
 
 TEST(CommandOf, RendersTheConfiguration) {
