@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,6 +14,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/glob.hpp"
 #include "record/factor_list.hpp"
 
 namespace triptych::measure {
@@ -108,7 +108,7 @@ std::vector<std::string> faults_for(std::span<const InjectedFault> all,
   std::vector<std::string> faults;
   for (const InjectedFault& fault : all) {
     const auto matches = [&fault](const std::string& text) {
-      return ::fnmatch(fault.only.c_str(), text.c_str(), 0) == 0;
+      return core::glob_matches(fault.only, text);
     };
     if (fault.only.empty() || matches(configuration) || matches(device) ||
         has_levels(configuration, fault.only)) {

@@ -1,13 +1,13 @@
 #include "measure/worker/listing.hpp"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <chrono>
 #include <iterator>
 
 #include "core/error.hpp"
+#include "core/glob.hpp"
 #include "core/json.hpp"
 #include "measure/system/compile_only.hpp"
 #include "measure/system/environment.hpp"
@@ -74,11 +74,6 @@ Listing list_one(const std::string& api) {
     }
   }
   return {.devices = {}, .broken = {{.what = api, .reason = {}, .ended = std::move(reason)}}};
-}
-
-bool any_matches(const std::vector<std::string>& globs, const std::string& id) {
-  return std::ranges::any_of(
-      globs, [&](const std::string& glob) { return ::fnmatch(glob.c_str(), id.c_str(), 0) == 0; });
 }
 
 // Asks the driver whether it can compile for the GPU family of this device, and adds the result to
@@ -150,7 +145,7 @@ std::vector<std::string> apis_of(const std::vector<std::string>& globs,
   for (const std::string& api : apis) {
     const std::string prefix = api + ":";
     const bool may_match = std::ranges::any_of(globs, [&](const std::string& glob) {
-      const std::string literal = glob.substr(0, glob.find_first_of("*?[\\"));
+      const std::string literal = glob.substr(0, glob.find_first_of("*?"));
       return literal.starts_with(prefix) || prefix.starts_with(literal);
     });
     if (may_match) fit.push_back(api);
@@ -190,7 +185,7 @@ std::vector<std::string> installed_compilers() {
 Listing list_compilers(const std::vector<std::string>& globs) {
   std::vector<std::string> ids = usual_compile_only_devices();
   if (!globs.empty()) {
-    std::erase_if(ids, [&](const std::string& id) { return !any_matches(globs, id); });
+    std::erase_if(ids, [&](const std::string& id) { return !core::any_glob_matches(globs, id); });
   }
   for (const std::string& glob : globs) {
     if (compile_only(glob) && std::ranges::find(ids, glob) == ids.end()) ids.push_back(glob);
@@ -204,7 +199,7 @@ std::vector<std::string> choose_devices(const Listing& listing,
                                         const std::vector<std::string>& globs) {
   const std::vector<std::string> asked = globs.empty() ? std::vector<std::string>{"*"} : globs;
   const auto matches = [](const std::string& glob, const record::Device& device) {
-    return ::fnmatch(glob.c_str(), device.id.c_str(), 0) == 0;
+    return core::glob_matches(glob, device.id);
   };
   for (const std::string& glob : asked) {
     const auto meant = [&](const record::Device& device) { return matches(glob, device); };
