@@ -2,6 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "core/image_io.hpp"
+#include "core/private_folder.hpp"
 #include "core/temporary_folder.hpp"
 #include "findings.hpp"
 #include "report/ci/ctest_answer.hpp"
@@ -96,6 +102,35 @@ TEST_F(CTestAnswer, ACorrelationOfADeviceIsAVerdict) {
   add(Verdict::advisory, "");
   add(Verdict::pass, "", Check::correlation);
   EXPECT_EQ(reason_to_skip(result_), std::nullopt);
+}
+
+// Another user may have created the folder for images before, as a link to a folder of this user.
+// Names come from a store, so they may name another folder.
+TEST_F(CTestAnswer, ImagesAreWrittenOnlyToAPrivateFolder) {
+  const std::string before = std::getenv("TMPDIR") == nullptr ? "" : std::getenv("TMPDIR");
+  std::filesystem::create_directories(folder_.path() / "tmp");
+  ::setenv("TMPDIR", (folder_.path() / "tmp").c_str(), 1);
+  store_.add_run({.id = "r", .plan = "volume/quick", .started_at = "", .system = {}});
+  store_.add_image("hash", core::encode_exr(core::Image(2, 2)));
+  record::Record record{.run = "r", .plan = "volume/quick", .configuration = "step=1"};
+  record.device = "gl:a";
+  record.image = "hash";
+  store_.add_record(record);
+  add(Verdict::regression, "step=1");
+  result_.findings.front().test = "../../x";
+  const auto truth = [](const record::Record&) {
+    return judge::TruthPair{core::Image(2, 2), core::Image(2, 2)};
+  };
+  const auto own = folder_.path() / "tmp" / core::name_of_this_user();
+  EXPECT_THAT(ctest_answer(result_, store_, truth),
+              HasSubstr((own / "ctest/.._.._x.test.png").string()));
+  EXPECT_TRUE(std::filesystem::exists(own / "ctest/.._.._x.difference.png"));
+  EXPECT_EQ(std::filesystem::status(own / "ctest").permissions(),
+            std::filesystem::perms::owner_all);
+  std::filesystem::remove_all(own);
+  std::filesystem::create_directory_symlink(folder_.path(), own);
+  EXPECT_THROW(static_cast<void>(ctest_answer(result_, store_, truth)), core::IoError);
+  before.empty() ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", before.c_str(), 1);
 }
 
 TEST_F(CTestAnswer, ReportsFailuresAndTheWorstNumbers) {

@@ -87,6 +87,22 @@ TEST(LastScreen, ListsWaivedFindings) {
   EXPECT_THAT(text, HasSubstr("\n  – gl:x, step=2: waived until 2027-01-01 (known): 3 of"));
 }
 
+// These circumstances may make a pass worthless.
+TEST(LastScreen, ListsTheCircumstancesOfAPass) {
+  GateResult result = passing();
+  EXPECT_THAT(last_screen(std::vector{result}, 3, {}), Not(HasSubstr("  ! ")));
+  result.injected = {{"slowdown:20", 4}};
+  result.measured_by = "build a; judged by build b";
+  result.began = "2026-02-01";
+  result.unusable = {{"Vulkan", "no loader", {}}};
+  const std::string text = last_screen(std::vector{result}, 3, {}, {.width = 120});
+  EXPECT_THAT(text, HasSubstr("PASS (0)"));
+  EXPECT_THAT(text, HasSubstr("4 records have injected faults (slowdown:20)"));
+  EXPECT_THAT(text, HasSubstr("another build of Triptych: build a; judged by build b"));
+  EXPECT_THAT(text, HasSubstr("the measurements are from 2026-02-01"));
+  EXPECT_THAT(text, HasSubstr("unusable on this machine: Vulkan: no loader"));
+}
+
 TEST(LastScreen, StatesWhetherTimesDecided) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   add(result, Check::timing, pass, "gl:x", "step=1", {.cause = judge::Cause::time});
