@@ -126,8 +126,9 @@ TEST(Exr, ReportsTheMissingChannel) {
     out.setFrameBuffer(&pixel, 1, 1);
     out.writePixels(1);
   }
-  EXPECT_THAT([&] { (void)read_exr(file); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("rgb.exr: "), HasSubstr("channel A is missing"))));
+  EXPECT_THAT(
+      [&] { (void)read_exr(file); },
+      ThrowsMessage<InputError>(AllOf(HasSubstr("rgb.exr: "), HasSubstr("channel A is missing"))));
 }
 
 TEST(Exr, EveryTruncationIsReportedInOneLine) {
@@ -174,17 +175,30 @@ TEST(Exr, ChannelsWithAWrongEndAreRejected) {
               ThrowsMessage<InputError>(HasSubstr("channel list ends at byte")));
 }
 
-// For eight million columns, OpenEXR would allocate half a gigabyte for the first rows.
-TEST(Exr, AWindowThatIsTooWideIsRejectedBeforeAllocating) {
+// Returns an image file whose header gives these coordinates for the last pixel.
+std::vector<std::byte> with_last_pixel(std::int32_t x, std::int32_t y) {
   std::vector<std::byte> bytes = encode_exr(noise(8, 20, false));
   const std::string_view name("dataWindow\0box2i", 16);
   const auto* text = reinterpret_cast<const char*>(bytes.data());
   const std::size_t value =
       std::string_view(text, bytes.size()).find(name) + name.size() + 1 + sizeof(std::int32_t);
-  const std::int32_t right = 0x7A004D;
-  std::memcpy(bytes.data() + value + 2 * sizeof(std::int32_t), &right, sizeof(right));
-  EXPECT_THAT([&] { (void)decode_exr(bytes, "wide.exr"); },
+  const std::array last{x, y};
+  std::memcpy(bytes.data() + value + 2 * sizeof(std::int32_t), last.data(), sizeof(last));
+  return bytes;
+}
+
+// For eight million columns, OpenEXR would allocate half a gigabyte for the first rows.
+TEST(Exr, AWindowThatIsTooWideIsRejectedBeforeAllocating) {
+  EXPECT_THAT([&] { (void)decode_exr(with_last_pixel(0x7A004D, 19), "wide.exr"); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("wide.exr: "), HasSubstr("65536"))));
+}
+
+// The image would need 400 megabytes, but the file has only a few thousand bytes.
+TEST(Exr, AWindowThatIsTooLargeForItsFileIsRejectedBeforeAllocating) {
+  EXPECT_THAT([&] { (void)decode_exr(with_last_pixel(4999, 4999), "large.exr"); },
+              ThrowsMessage<InputError>(HasSubstr(
+                  "large.exr: cannot be read as an EXR image: invalid image size in the header: "
+                  "5000x5000 pixels in a file of ")));
 }
 
 TEST(Exr, DistinguishesMissingFromBrokenFiles) {

@@ -96,10 +96,31 @@ TEST_F(AsBegunTest, ALostDeviceDescriptionIsReported) {
 
 TEST_F(AsBegunTest, ShorteningTheListOfPlannedConfigurationsIsDetected) {
   add_begun("run");
+  add_run("short");
+  configurations_.erase(configurations_.begin());
+  begin("short");
   delete_rows("DELETE FROM planned WHERE run = 'run' AND configuration = '" + plain_ + "'");
-  EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
-  delete_rows("UPDATE run SET planned_hash = '', begun = '[]' WHERE id = 'run'");
-  EXPECT_THROW(static_cast<void>(gate("run")), core::InputError);
+  const auto refusal = [&]() -> std::string {
+    try {
+      static_cast<void>(gate("run"));
+    } catch (const core::InputError& error) {
+      return error.what();
+    }
+    return "was judged";
+  };
+  EXPECT_THAT(refusal(), HasSubstr("the list of configurations of run 'run' was changed"));
+  // Somebody who also changes the hash of the list breaks the seal of the run.
+  delete_rows("CREATE TABLE kept AS SELECT * FROM run");
+  for (const char* change : {"planned_hash = (SELECT planned_hash FROM kept WHERE id = 'short')",
+                             "planned_hash = ''", "begun = '[]'"}) {
+    delete_rows(fmt::format("UPDATE run SET {} WHERE id = 'run'", change));
+    EXPECT_THAT(refusal(), testing::AllOf(HasSubstr("run 'run' was changed"),
+                                          testing::Not(HasSubstr("the list"))))
+        << change;
+    delete_rows(
+        "UPDATE run SET (planned_hash, begun) = (SELECT planned_hash, begun FROM kept WHERE "
+        "kept.id = run.id)");
+  }
 }
 
 TEST_F(AsBegunTest, ARunThatWasCutShortIsNotAccepted) {
@@ -252,6 +273,40 @@ TEST_F(AsBegunTest, AManifestThatContradictsItsFilesIsDamaged) {
   EXPECT_THAT(changed([](core::Json& json) { json["machines"] = core::Json::array(); }),
               HasSubstr("is not the most recently accepted manifest"));
   EXPECT_EQ(changed([](core::Json&) {}), "");
+}
+
+// A device, driver or check that was deleted from the manifest still has a file.
+TEST_F(AsBegunTest, EveryFileThatTheManifestDoesNotDescribeIsReported) {
+  accept_begun();
+  const std::string manifest = folder_.read(baseline("manifest.json"));
+  const auto problem = [&] { return Baselines(folder_.path() / "baselines", plan).problem(); };
+  const std::string counters = folder_.read(baseline("counters.json"));
+  core::Json more = core::Json::parse(counters);
+  more[plain_]["samples"]["gl:unknown"] = 1;
+  for (const auto& [file, content, expected] : std::vector<std::array<std::string, 3>>{
+           {"cost/gl-unknown.json", "{}", "does not list cost/gl-unknown.json"},
+           {"code/gl-unknown.json", "{}", "does not list code/gl-unknown.json"},
+           {"statistics/gl-unknown.json", "{}", "does not list statistics/gl-unknown.json"},
+           {"lacking.json", R"({"gl-unknown": ["x"]})",
+            "the driver gl-unknown, although lacking.json contains it"},
+           {"memory.json", R"({"x": {"gl:unknown": {"buffers": 1}}})",
+            "the device gl:unknown, although memory.json contains it"},
+           {"counters.json", more.dump(1),
+            "the device gl:unknown, although counters.json contains it"},
+           {"accuracy.json", "{}", "the check accuracy, although accuracy.json exists"},
+           {"score.json", "{}", "the check stress, although score.json exists"}}) {
+    std::filesystem::create_directories(baseline(file).parent_path());
+    rewrite(file, content);
+    EXPECT_THAT(problem(), HasSubstr(expected));
+    std::filesystem::remove(baseline(file));
+    core::write_file(counters, baseline("counters.json"));
+    core::write_file(manifest, baseline("manifest.json"));
+    EXPECT_EQ(problem(), "");
+  }
+  core::Json machines = core::Json::parse(manifest);
+  machines["machines"][0].push_back("gl-unknown");
+  core::write_file(machines.dump(1), baseline("manifest.json"));
+  EXPECT_THAT(problem(), HasSubstr("the driver gl-unknown for any device, but lists it for"));
 }
 
 // If a configuration were lost from counters.json, nobody would notice that it is also missing from

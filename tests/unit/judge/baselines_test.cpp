@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <regex>
+
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/json.hpp"
@@ -127,6 +129,21 @@ TEST_F(BaselinesTest, NumbersThatAreNotFiniteAreRejected) {
     const Baselines stored(folder_.path() / "baselines", plan);
     EXPECT_THROW(static_cast<void>(stored.errors(plain_)), core::InputError) << number;
   }
+  // A time of 0, or an infinite spread, would also excuse any slowdown.
+  const record::Device device = store_.devices("accepted").at(0).device;
+  const std::string file = "timings/" + device.key_hash() + ".json";
+  const std::string timings = folder_.read(baseline(file));
+  for (const std::string name : {"median_ns", "spread"}) {
+    const std::regex stored_number('"' + name + R"(": *[^,}]+)");
+    for (const char* number : {"NaN", "1e999", "-1", "0", "null"}) {
+      rewrite(file,
+              std::regex_replace(timings, stored_number, fmt::format(R"("{}": {})", name, number)));
+      const Baselines stored(folder_.path() / "baselines", plan);
+      EXPECT_THROW(static_cast<void>(stored.timings(device)), core::InputError) << name << number;
+    }
+  }
+  rewrite(file, timings);
+  EXPECT_NO_THROW(static_cast<void>(Baselines(folder_.path() / "baselines", plan).timings(device)));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "core/image_io.hpp"
 #include "core/temporary_folder.hpp"
 #include "measure/truth/own_seal.hpp"
+#include "tests/unit/measure_run/scratch.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -111,6 +112,28 @@ TEST_F(TruthsTest, ABoundFromAnotherUserIsComputedAgain) {
   EXPECT_EQ(truths(second).of(record_with("1")).bound.rgba[0], 0.25F);
   // The image was rendered by this user, so it is trusted.
   EXPECT_EQ(suite_.rendered, 2);
+}
+
+// The second seal depends on a key that only the user who rendered the image can read.
+TEST_F(TruthsTest, TheKeyOfEachUserIsSecretAndDifferent) {
+  const auto cache = [&](const char* user) {
+    return Variable("XDG_CACHE_HOME", (folder_.path() / user).string());
+  };
+  {
+    const Variable one = cache("one");
+    record::Store first = store();
+    static_cast<void>(truths(first).of(record_with("1")));
+  }
+  const Variable other = cache("other");
+  record::Store second = store();
+  static_cast<void>(truths(second).of(record_with("1")));
+  EXPECT_EQ(suite_.rendered, 2);
+  const auto key = folder_.path() / "other/triptych/references/key";
+  EXPECT_EQ(std::filesystem::status(key).permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  std::filesystem::permissions(key, std::filesystem::perms::others_read,
+                               std::filesystem::perm_options::add);
+  EXPECT_EQ(own_seal({}), std::nullopt) << "a key that others can read was used";
 }
 
 // Test cases 1, 2 and 6 of RFC 4231.

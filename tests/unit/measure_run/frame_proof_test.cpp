@@ -114,7 +114,8 @@ TEST(FrameProof, FindsAnImageThatCannotBeOverwritten) {
     std::string kernel_hash() const override { return "kernel"; }
   };
   Kept prepared;
-  EXPECT_THROW(measure_all(prepared), NotDrawn);
+  EXPECT_THAT([&] { measure_all(prepared); },
+              testing::ThrowsMessage<NotDrawn>(testing::HasSubstr("could not be overwritten")));
 }
 
 TEST(FrameProof, DoesNotTrustClocksOfFramesThatAreNotDrawn) {
