@@ -97,6 +97,20 @@ TEST_F(CutShort, AFailedListingIsReported) {
   }
 }
 
+// The devices of another API are measured nevertheless. The failure must not be forgotten.
+TEST_F(CutShort, AFailedListingOfOneApiOfSeveralIsReported) {
+  const std::string crash = R"({"failures": [{"kind": "crash", "at": "list"}]})";
+  const std::string given = " --store s.sqlite --baselines b";
+  const Result measured =
+      program.run("run p.yaml --store s.sqlite --device '*l:*' --device 'o*'", crash);
+  if (measured.code != 0) GTEST_SKIP() << "needs an OpenCL device: " << measured.output;
+  ASSERT_EQ(program.run("accept p.yaml --reason x" + given, crash).code, 0);
+  const Result judged = program.run("gate p.yaml" + given, crash);
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  EXPECT_THAT(judged.output, AllOf(HasSubstr("unusable on this machine: null: the worker was"),
+                                   HasSubstr("device enumeration failed for null")));
+}
+
 TEST_F(CutShort, APlanThatLostAcceptedChecksIsReported) {
   accept();
   program.write("p.yaml", std::string(tiny_plan) + "checks: [memory]\n");

@@ -123,17 +123,17 @@ TEST(Hostile, ARunEscapesNames) {
 // 10¹² combinations must be rejected before the first one is listed.
 TEST(Hostile, RejectsPlansWithTooManyCombinations) {
   const Program program;
-  std::string steps;
+  std::string numbers;
   std::string cameras;
   for (int i = 1; i <= 1000; ++i) {
-    steps += std::to_string(0.01 * i) + ", ";
+    numbers += std::to_string(i) + ", ";
     cameras += "random:" + std::to_string(i) + ", ";
   }
-  program.write("p.yaml", "suite: volume\nstep: [" + steps + "]\ncamera: [" + cameras +
-                              "]\nbudget: [" + steps + "]\nviewport: [16, 32]\n");
+  program.write("p.yaml", "suite: volume\nstep: [" + numbers + "]\ncamera: [" + cameras +
+                              "]\nbudget: [" + numbers + "]\nviewport: [" + numbers + "]\n");
   for (const char* command : {"list p.yaml", "run p.yaml --store s.sqlite"}) {
     const Result result = program.run(command, "{}", "timeout 20");
-    EXPECT_EQ(result.code, 3) << command << result.output;
+    expect_one_line(result, "combinations, and this factor has the most values");
     EXPECT_LT(result.output.size(), 9000U) << command;
   }
 }

@@ -20,9 +20,10 @@ class Surroundings : public testing::Test {
     ASSERT_EQ(program.run("run p.yaml" + given).code, 0);
     ASSERT_EQ(program.run("accept p.yaml --reason x --store s.sqlite --baselines b").code, 0);
   }
-  [[nodiscard]] Result judge_again(const std::string& wrapper) const {
+  [[nodiscard]] Result judge_again(const std::string& wrapper,
+                                   const std::string& script = "{}") const {
     return program.run(
-        "gate p.yaml --measure --device null:scripted --store other.sqlite --baselines b", "{}",
+        "gate p.yaml --measure --device null:scripted --store other.sqlite --baselines b", script,
         wrapper);
   }
 
@@ -45,14 +46,33 @@ TEST_F(Surroundings, TheLocaleHasNoEffect) {
   }
 }
 
-// The latest run is the one that was added last, whatever its date is.
+// The latest run is the one that was added last, whatever its date is. A waiver that had expired
+// when the run began stays expired.
 TEST_F(Surroundings, AClockThatWasSetBackHasNoEffect) {
   if (test::run_command("faketime -f -400d true").code != 0) {
     GTEST_SKIP() << "faketime is not installed";
   }
+  const std::string crash = R"({"failures": [{"kind": "crash", "at": "frame"}]})";
   ASSERT_EQ(judge_again("").code, 0);
-  const Result judged = judge_again("faketime -f -400d");
+  Result judged = judge_again("faketime -f -400d", crash);
+  EXPECT_EQ(judged.code, 1) << judged.output;
+  judged = judge_again("faketime -f -400d");
   EXPECT_EQ(judged.code, 0) << judged.output;
+
+  ASSERT_EQ(judge_again("", crash).code, 1);
+  const auto gate_with_waiver = [&](const std::string& expiry) {
+    const std::string day = test::run_command("date -u +%F -d " + expiry).output.substr(0, 10);
+    program.write("b/waivers.json", R"([{"device": "null:*", "test": "*", "reason": "x", )"
+                                    R"("expiry": ")" +
+                                        day + "\"}]");
+    return program.run("gate p.yaml --store other.sqlite --baselines b", "{}", "faketime -f -30d");
+  };
+  judged = gate_with_waiver("yesterday");
+  EXPECT_EQ(judged.code, 1) << judged.output;
+  // This waiver applies, but then nothing is left to judge.
+  judged = gate_with_waiver("'2 days'");
+  EXPECT_EQ(judged.code, 2) << judged.output;
+  EXPECT_THAT(judged.output, HasSubstr("2 waived"));
 }
 
 }  // namespace
