@@ -28,6 +28,21 @@ bool finite(std::span<const float, 4> pixel) {
   return std::ranges::all_of(pixel, [](float v) { return std::isfinite(v); });
 }
 
+bool is_nan(std::span<const float, 4> pixel) {
+  return std::ranges::all_of(pixel, [](float v) { return std::isnan(v); });
+}
+
+// Extends the rectangle so that it contains the pixel.
+void include(std::size_t pixel, int width, ImageComparison::Rectangle& rectangle) {
+  const int x = static_cast<int>(pixel % static_cast<std::size_t>(width));
+  const int y = static_cast<int>(pixel / static_cast<std::size_t>(width));
+  if (rectangle.left < 0) rectangle = {x, y, x, y};
+  rectangle.left = std::min(rectangle.left, x);
+  rectangle.right = std::max(rectangle.right, x);
+  rectangle.top = std::min(rectangle.top, y);
+  rectangle.bottom = std::max(rectangle.bottom, y);
+}
+
 double difference(float a, float b) {
   return std::abs(static_cast<double>(a) - static_cast<double>(b));
 }
@@ -51,6 +66,8 @@ ImageComparison compare_with(const core::Image& image, const core::Image& truth,
     const auto expected = channels(truth, i);
     if (!finite(seen) || !finite(expected)) {
       ++result.non_finite;
+      if (is_nan(seen)) ++result.not_drawn;
+      include(i, image.width, result.wrong);
       continue;
     }
     ImageComparison::Place place{static_cast<int>(i % static_cast<std::size_t>(image.width)),
@@ -67,7 +84,10 @@ ImageComparison compare_with(const core::Image& image, const core::Image& truth,
         place.ratio = ratio_of(error, bound);
       }
     }
-    if (over) ++result.over_bound;
+    if (over) {
+      ++result.over_bound;
+      include(i, image.width, result.wrong);
+    }
     if (errors.empty() || place.ratio > result.worst.ratio) result.worst = place;
     if (errors.empty() || place.error > result.largest.error) result.largest = place;
     errors.push_back(place.error);
@@ -94,6 +114,7 @@ void compare_surfaces(const core::Image& image, const core::Image& truth, const 
     const bool wrong_depth =
         id_is_certain(bound, i) && !same_depth(image.depth[i], truth.depth[i], bound.depth[i]);
     if (!wrong_id && !wrong_depth) continue;
+    include(i, image.width, result.wrong);
     if (result.first_wrong.x < 0) {
       const auto width = static_cast<std::size_t>(image.width);
       result.first_wrong = {.x = static_cast<int>(i % width),

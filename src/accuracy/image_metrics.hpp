@@ -32,9 +32,21 @@ struct ImageComparison {
     double bound = 0;  // bound on the depth error
   };
 
+  // The smallest rectangle that contains all wrong pixels: those with a value that is not finite,
+  // an error beyond the bound, a wrong particle or a wrong depth.
+  struct Rectangle {
+    int left = -1;  // the first column; -1 if no pixel is wrong
+    int top = -1;   // the first row
+    int right = -1;
+    int bottom = -1;
+  };
+
   bool size_mismatch = false;  // if true, the members below are not set
   std::size_t pixels = 0;
   std::size_t non_finite = 0;
+  // Pixels of the image that are NaN in all channels. They were probably not drawn, because
+  // Triptych sets all outputs to NaN before each frame.
+  std::size_t not_drawn = 0;
   std::size_t over_bound = 0;
   Place worst;          // pixel with the largest ratio
   Place largest;        // pixel with the largest error
@@ -44,6 +56,7 @@ struct ImageComparison {
   std::size_t wrong_ids = 0;
   std::size_t wrong_depths = 0;
   Surface first_wrong;
+  Rectangle wrong;
 
   [[nodiscard]] bool within_bound() const {
     return !size_mismatch && non_finite == 0 && over_bound == 0 && wrong_ids == 0 &&

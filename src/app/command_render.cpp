@@ -186,8 +186,13 @@ core::ExitCode render_in_process(const RenderArguments& arguments) {
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "render.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);
-  const core::ExitCode kept = keep(arguments, suite, drawn.record, drawn.device, drawn.image,
-                                   [&](const record::Record& record) { return truths.of(record); });
+  core::ExitCode kept = keep(arguments, suite, drawn.record, drawn.device, drawn.image,
+                             [&](const record::Record& record) { return truths.of(record); });
+  if (drawn.not_drawn > 0) {
+    put("{} of {} pixels were not drawn; they still have the values from before the frame\n",
+        drawn.not_drawn, drawn.image.pixel_count());
+    kept = core::ExitCode::regression;
+  }
   if (!drawn.traced) return kept;
   const core::ExitCode shown = show_pixel(suite, drawn, truths.of(drawn.record), out);
   return kept == core::ExitCode::pass ? shown : kept;

@@ -142,7 +142,8 @@ core::ExitCode show_pixel(measure::SuiteWithTruth& suite, const measure::FrameIn
     put_lines(line + "\n");
   }
   put("{}\n", (out / "pixel.txt").string());
-  return shown.differs ? core::ExitCode::regression : core::ExitCode::pass;
+  return shown.differs || !report::is_within_bound(pixel) ? core::ExitCode::regression
+                                                          : core::ExitCode::pass;
 }
 
 }  // namespace triptych::app

@@ -30,6 +30,17 @@ void add_surface(Observation& what, const accuracy::ImageComparison::Surface& fi
   set_number(what, "depth_bound", first.bound);
 }
 
+// Adds the rectangle that contains all wrong pixels if it is at most half as large as the image.
+void add_place(Observation& what, const accuracy::ImageComparison& comparison) {
+  const auto& [left, top, right, bottom] = comparison.wrong;
+  const double area = (right - left + 1.0) * (bottom - top + 1.0);
+  if (left < 0 || 2 * area > static_cast<double>(comparison.pixels)) return;
+  set_number(what, "wrong_left", left);
+  set_number(what, "wrong_top", top);
+  set_number(what, "wrong_right", right);
+  set_number(what, "wrong_bottom", bottom);
+}
+
 }  // namespace
 
 Observation image_observation(const accuracy::ImageComparison& comparison, const core::Image& image,
@@ -52,6 +63,8 @@ Observation image_observation(const accuracy::ImageComparison& comparison, const
   set_number(what, "pixels_not_finite", static_cast<double>(comparison.non_finite));
   set_number(what, "pixels_of_another_particle", static_cast<double>(comparison.wrong_ids));
   set_number(what, "pixels_at_another_depth", static_cast<double>(comparison.wrong_depths));
+  set_number(what, "pixels_not_drawn", static_cast<double>(comparison.not_drawn));
+  add_place(what, comparison);
   if (what.cause == Cause::other_surface) add_surface(what, comparison.first_wrong);
   return what;
 }

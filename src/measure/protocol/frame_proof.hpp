@@ -52,6 +52,8 @@ class FrameProof {
 
   [[nodiscard]] Prepared& prepared() { return prepared_; }
 
+  // Returns the number of pixels that the most recently checked frame did not draw.
+  [[nodiscard]] std::size_t pixels_not_drawn() const { return without_value_; }
   // Returns the most recently checked image.
   [[nodiscard]] core::Image take_image() { return std::move(last_); }
 

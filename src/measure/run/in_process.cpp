@@ -49,8 +49,11 @@ FrameInProcess draw_in_process(const Backend& backend, std::string_view device_i
     static_cast<void>(prepared->frame(Purpose::timing));
   }
   proof.check_drawn("the frame");
-  FrameInProcess drawn{
-      .record = {}, .image = proof.take_image(), .device = device->info(), .traced = {}};
+  FrameInProcess drawn{.record = {},
+                       .image = proof.take_image(),
+                       .device = device->info(),
+                       .not_drawn = proof.pixels_not_drawn(),
+                       .traced = {}};
   record::Record& record = drawn.record;
   describe_work(work, *device, record);
   if (pixel) {

@@ -29,6 +29,7 @@ struct FrameInProcess {
   record::Record record;
   core::Image image;
   record::Device device;
+  std::size_t not_drawn = 0;          // number of pixels that the frame did not draw
   std::optional<TracedPixel> traced;  // set if a pixel was specified
 };
 

@@ -157,29 +157,55 @@ void add_rows(const accuracy::RayHistory& history, PixelText& text) {
   }
 }
 
-// Returns lines with the colours of the pixel in the device's image, in the frame that was drawn to
-// record the samples, and in the reference image.
-std::vector<std::string> colours_of(const PixelInImage& pixel) {
+// Returns whether the pixel was probably not drawn. Before each frame, Triptych sets all channels
+// of all pixels to NaN.
+bool is_untouched(const PixelColour& colour) {
+  return std::ranges::all_of(colour, [](float channel) { return std::isnan(channel); });
+}
+
+// Returns the largest error of all channels, or NaN if a channel is NaN.
+double error_of(const PixelInImage& pixel) {
   double error = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const double distance =
         std::abs(static_cast<double>(pixel.image[k]) - static_cast<double>(pixel.reference[k]));
     error = distance <= error ? error : distance;  // NaN counts as large
   }
+  return error;
+}
+
+std::string about_image(const PixelInImage& pixel) {
+  if (is_untouched(pixel.image)) {
+    return "the pixel was probably not drawn, because it is NaN in all channels, as before the "
+           "frame";
+  }
+  const double error = error_of(pixel);
+  return error <= pixel.bound
+             ? fmt::format("error {:.3g}, within the bound of {:.3g}", error, pixel.bound)
+             : fmt::format("error {:.3g}, beyond the bound of {:.3g}", error, pixel.bound);
+}
+
+std::string about_recorded(const PixelInImage& pixel) {
+  if (is_untouched(*pixel.recorded)) {
+    return is_untouched(pixel.image)
+               ? "the device code that records samples did not draw the pixel, either, so the "
+                 "fault is probably in the dispatch and not in the compiled code"
+               : "the device code that records samples did not draw the pixel";
+  }
+  return *pixel.recorded == pixel.image
+             ? "the device code that records samples computes the same colour"
+             : "the device code that records samples computes a different colour";
+}
+
+// Returns lines with the colours of the pixel in the device's image, in the frame that was drawn to
+// record the samples, and in the reference image.
+std::vector<std::string> colours_of(const PixelInImage& pixel) {
   std::vector<std::string> lines{
       fmt::format("{:<11}{:>14}{:>14}{:>14}{:>14}", fmt::format("{},{}", pixel.x, pixel.y), "red",
                   "green", "blue", "opacity"),
-      colour_line(
-          "image", pixel.image,
-          error <= pixel.bound
-              ? fmt::format("error {:.3g}, within the bound of {:.3g}", error, pixel.bound)
-              : fmt::format("error {:.3g}, beyond the bound of {:.3g}", error, pixel.bound))};
+      colour_line("image", pixel.image, about_image(pixel))};
   if (pixel.recorded) {
-    lines.push_back(
-        colour_line("recorded", *pixel.recorded,
-                    *pixel.recorded == pixel.image
-                        ? "the device code that records samples computes the same colour"
-                        : "the device code that records samples computes a different colour"));
+    lines.push_back(colour_line("recorded", *pixel.recorded, about_recorded(pixel)));
   }
   lines.push_back(colour_line("reference", pixel.reference, ""));
   return lines;
@@ -193,6 +219,7 @@ std::vector<std::string> summary_of(const PixelInImage& pixel,
   }
   const auto differing = std::ranges::count_if(
       history.rows, [](const SampleRow& row) { return row.differs.has_value(); });
+  if (history.rows.empty() && is_untouched(pixel.image)) return lines;
   if (!history.first) {
     lines.emplace_back(history.rows.empty() ? "the ray misses the volume"
                                             : "every number is within the interval that the "
@@ -258,6 +285,10 @@ std::string about_fewest(const accuracy::SpriteHistory& history) {
 }
 
 }  // namespace
+
+bool is_within_bound(const PixelInImage& pixel) {
+  return error_of(pixel) <= pixel.bound;
+}
 
 PixelText pixel_text(const PixelInImage& pixel, const accuracy::RayHistory& history) {
   PixelText text;

@@ -35,6 +35,8 @@ struct PixelText {
   std::size_t marked = 0;          // the index of the marked line of the table; 0: none is marked
 };
 [[nodiscard]] PixelText pixel_text(const PixelInImage& pixel, const accuracy::RayHistory& history);
+// Returns whether the colour of the pixel in the device's image is within its bound.
+[[nodiscard]] bool is_within_bound(const PixelInImage& pixel);
 // Returns the text for a pixel of a particle scene. Its table contains the spheres that the pixel's
 // ray may hit.
 [[nodiscard]] PixelText pixel_text(const PixelInImage& pixel,

@@ -31,6 +31,14 @@ std::string colour(const Observation& what, const std::string& prefix) {
                      what.number(prefix + "alpha"));
 }
 
+// Returns where the wrong pixels are, or "" if they are spread over more than half of the image.
+std::string place(const Observation& what) {
+  if (!what.numbers.contains("wrong_left")) return {};
+  return fmt::format("; all wrong pixels are in columns {:.0f} to {:.0f} and rows {:.0f} to {:.0f}",
+                     what.number("wrong_left"), what.number("wrong_right"),
+                     what.number("wrong_top"), what.number("wrong_bottom"));
+}
+
 }  // namespace
 
 std::string within_bound(const Observation& what) {
@@ -46,14 +54,20 @@ std::string pixels_over_bound(const Observation& what) {
     text +=
         fmt::format("{:.0f} show the wrong particle; ", what.number("pixels_of_another_particle"));
   }
-  return text + largest_errors(what);
+  return text + largest_errors(what) + place(what);
 }
 
 std::string not_finite(const Observation& what) {
   if (!what.numbers.contains("pixels")) return "some pixels have non-finite values";
-  return fmt::format("{:.0f} of {:.0f} pixels have non-finite values, in this image or in {}",
-                     what.number("pixels_not_finite"), what.number("pixels"),
-                     text_of(what.against));
+  const double count = what.number("pixels_not_finite");
+  const std::string pixels = fmt::format("{:.0f} of {:.0f} pixels", count, what.number("pixels"));
+  if (what.numbers.contains("pixels_not_drawn") && what.number("pixels_not_drawn") == count) {
+    return fmt::format(
+        "{} were probably not drawn, because they are NaN in all channels, as before the frame{}",
+        pixels, place(what));
+  }
+  return fmt::format("{} have non-finite values, in this image or in {}{}", pixels,
+                     text_of(what.against), place(what));
 }
 
 std::string other_surface(const Observation& what) {
