@@ -72,7 +72,7 @@ TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
   EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge);
   EXPECT_THAT(screen_of(result, {.plan = "volume/quick", .sides = "", .varied = {}}),
               AllOf(HasSubstr("nothing was compared: no configuration was measured on both sides; "
-                              "b skipped: no compute shaders\n"),
+                              "side b skipped: no compute shaders\n"),
                     Not(HasSubstr("no differences"))));
 }
 
@@ -110,7 +110,7 @@ TEST(ComparisonScreen, StoresThatMeasuredNothingDoNotPass) {
   EXPECT_EQ(diff.exit_code(), core::ExitCode::cannot_judge);
   EXPECT_THAT(screen_of(diff),
               HasSubstr("nothing was compared: no configuration was measured on both "
-                        "sides; b skipped: no compute shaders\n"));
+                        "sides; side b skipped: no compute shaders\n"));
   diff.devices.front().configurations.push_back({});
   EXPECT_EQ(diff.exit_code(), core::ExitCode::pass);
   EXPECT_THAT(screen_of(diff), HasSubstr("no differences"));

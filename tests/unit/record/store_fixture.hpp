@@ -42,9 +42,14 @@ inline std::vector<std::byte> bytes_of(std::string_view text) {
 // namespaces.
 inline bool mount_small_disk(const std::filesystem::path& folder) {
   const uid_t user = geteuid();
+  const gid_t group = getegid();
   if (unshare(CLONE_NEWNS) != 0) {
     if (unshare(CLONE_NEWUSER | CLONE_NEWNS) != 0) return false;
     std::ofstream("/proc/self/uid_map") << "0 " << user << " 1";
+    // Files cannot be created on the disk while the group has no number in the new namespace. The
+    // kernel accepts a group map only after setgroups(2) was forbidden.
+    std::ofstream("/proc/self/setgroups") << "deny";
+    std::ofstream("/proc/self/gid_map") << "0 " << group << " 1";
   }
   return mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
          mount("none", folder.c_str(), "tmpfs", 0, "size=1m") == 0;
