@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "layered.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -67,6 +68,24 @@ TEST_P(PixelHistories, NameTheFaultyOperation) {
     EXPECT_EQ(traced.operation, operation) << traced.output;
   }
   EXPECT_EQ(trace("--inject extra_sample --set ert=0 --set skip=none").code, 1);
+}
+
+// The layer removes one work group from each dispatch, so 8 of 16 columns are not drawn.
+TEST(UndrawnPixels, AreReportedWithTheirColumns) {
+  const Layered layered;
+  if (!layered.has_lavapipe()) GTEST_SKIP() << "needs lavapipe";
+  const std::string frame =
+      "render volume --device vulkan:lavapipe --set viewport=16 --set sampler=manual --out frame ";
+  const test::Result compared = layered.run("short_dispatch", frame + "--truth");
+  EXPECT_EQ(compared.code, 1) << compared.output;
+  EXPECT_NE(compared.output.find("columns 8 to 15 and rows 0 to 15"), std::string::npos)
+      << compared.output;
+  for (const char* more : {"--in-process", "--dump dump", "--pixel 12,3"}) {
+    const test::Result drawn = layered.run("short_dispatch", frame + more);
+    EXPECT_EQ(drawn.code, 1) << more << "\n" << drawn.output;
+    EXPECT_NE(drawn.output.find("128 of 256 pixels were not drawn"), std::string::npos)
+        << drawn.output;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Devices, PixelHistories,

@@ -60,6 +60,31 @@ TEST(ImageMetrics, CountsNonFinitePixels) {
   EXPECT_FALSE(result.within_bound());
 }
 
+TEST(ImageMetrics, FindsTheRectangleOfWrongPixels) {
+  const core::Image truth = filled(8, 6, 0.5F);
+  core::Image image = truth;
+  EXPECT_EQ(compare(image, truth, 0.125).wrong.left, -1);
+  channel(image, 5, 1, 0) = 1.0F;
+  channel(image, 2, 4, 3) = std::nanf("");
+  channel(image, 3, 2, 1) = 0.5625F;  // within the bound
+  const auto& [left, top, right, bottom] = compare(image, truth, 0.125).wrong;
+  EXPECT_EQ(left, 2);
+  EXPECT_EQ(top, 1);
+  EXPECT_EQ(right, 5);
+  EXPECT_EQ(bottom, 4);
+}
+
+// Before each frame, all channels of all pixels are set to NaN.
+TEST(ImageMetrics, PixelsThatAreNaNInAllChannelsWereNotDrawn) {
+  const core::Image truth = filled(4, 3, 0.5F);
+  core::Image image = truth;
+  for (int c = 0; c < 4; ++c) channel(image, 3, 0, c) = std::nanf("");
+  channel(image, 1, 1, 2) = std::nanf("");
+  const ImageComparison result = compare(image, truth, 0.125);
+  EXPECT_EQ(result.non_finite, 2U);
+  EXPECT_EQ(result.not_drawn, 1U);
+}
+
 TEST(ImageMetrics, NothingIsWithinABoundThatIsNotANumber) {
   const core::Image image = filled(1, 1, 0.0F);
   const auto bound = filled(1, 1, std::numeric_limits<float>::quiet_NaN());
