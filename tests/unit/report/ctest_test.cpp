@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
@@ -104,12 +106,29 @@ TEST_F(CTestAnswer, ACorrelationOfADeviceIsAVerdict) {
   EXPECT_EQ(reason_to_skip(result_), std::nullopt);
 }
 
+// Sets TMPDIR until the end of the scope.
+class TemporaryFolders {
+ public:
+  explicit TemporaryFolders(const std::filesystem::path& folder) {
+    if (const char* before = std::getenv("TMPDIR")) before_ = before;
+    ::setenv("TMPDIR", folder.c_str(), 1);
+  }
+  TemporaryFolders(const TemporaryFolders&) = delete;
+  TemporaryFolders& operator=(const TemporaryFolders&) = delete;
+  ~TemporaryFolders() { before_ ? ::setenv("TMPDIR", before_->c_str(), 1) : ::unsetenv("TMPDIR"); }
+
+ private:
+  std::optional<std::string> before_;
+};
+
 // Another user may have created the folder for images before, as a link to a folder of this user.
 // Names come from a store, so they may name another folder.
 TEST_F(CTestAnswer, ImagesAreWrittenOnlyToAPrivateFolder) {
-  const std::string before = std::getenv("TMPDIR") == nullptr ? "" : std::getenv("TMPDIR");
-  std::filesystem::create_directories(folder_.path() / "tmp");
-  ::setenv("TMPDIR", (folder_.path() / "tmp").c_str(), 1);
+  const auto tmp = folder_.path() / "tmp";
+  std::filesystem::create_directories(tmp);
+  // With some values of umask, other users could write to the folder.
+  std::filesystem::permissions(tmp, std::filesystem::perms::owner_all);
+  const TemporaryFolders folders(tmp);
   store_.add_run({.id = "r", .plan = "volume/quick", .started_at = "", .system = {}});
   store_.add_image("hash", core::encode_exr(core::Image(2, 2)));
   record::Record record{.run = "r", .plan = "volume/quick", .configuration = "step=1"};
@@ -121,7 +140,7 @@ TEST_F(CTestAnswer, ImagesAreWrittenOnlyToAPrivateFolder) {
   const auto truth = [](const record::Record&) {
     return judge::TruthPair{core::Image(2, 2), core::Image(2, 2)};
   };
-  const auto own = folder_.path() / "tmp" / core::name_of_this_user();
+  const auto own = tmp / core::name_of_this_user();
   EXPECT_THAT(ctest_answer(result_, store_, truth),
               HasSubstr((own / "ctest/.._.._x.test.png").string()));
   EXPECT_TRUE(std::filesystem::exists(own / "ctest/.._.._x.difference.png"));
@@ -130,7 +149,6 @@ TEST_F(CTestAnswer, ImagesAreWrittenOnlyToAPrivateFolder) {
   std::filesystem::remove_all(own);
   std::filesystem::create_directory_symlink(folder_.path(), own);
   EXPECT_THROW(static_cast<void>(ctest_answer(result_, store_, truth)), core::IoError);
-  before.empty() ? ::unsetenv("TMPDIR") : ::setenv("TMPDIR", before.c_str(), 1);
 }
 
 TEST_F(CTestAnswer, ReportsFailuresAndTheWorstNumbers) {
