@@ -329,9 +329,9 @@ Blame FindingGroup::blame() const {
   if (!wrong_on.empty()) return {Blame::Of::not_the_driver, wrong_on};
   if (!first->injected.empty()) return {};
   const std::string api = first->device.substr(0, first->device.find(':') + 1);
-  const auto by_its_api = [&](const std::vector<std::string>& devices) {
+  const auto by_its_api = [&](const std::vector<std::string>& correct) {
     std::vector<std::string> same;
-    for (const std::string& each : devices) {
+    for (const std::string& each : correct) {
       const bool itself = each == first->device;  // the same device with another driver version
       const bool other = record::family_of(each) != record::family_of(first->device);
       if (each.starts_with(api) && (itself || other)) same.push_back(each);
