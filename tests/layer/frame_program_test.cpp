@@ -1,5 +1,6 @@
 // Tests `render --in-process` and `--dump`, which draw one frame and write a C program that draws
 // the same frame again.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -1,4 +1,5 @@
 // Tests OpenCL and OpenGL drivers that have a fault.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <regex>
