@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/nan_pixel.hpp"
 #include "record/record.hpp"
 
 namespace triptych::accuracy {
@@ -26,10 +27,6 @@ std::span<const float, 4> channels(const core::Image& image, std::size_t pixel) 
 
 bool finite(std::span<const float, 4> pixel) {
   return std::ranges::all_of(pixel, [](float v) { return std::isfinite(v); });
-}
-
-bool is_nan(std::span<const float, 4> pixel) {
-  return std::ranges::all_of(pixel, [](float v) { return std::isnan(v); });
 }
 
 // Extends the rectangle so that it contains the pixel.
@@ -66,7 +63,7 @@ ImageComparison compare_with(const core::Image& image, const core::Image& truth,
     const auto expected = channels(truth, i);
     if (!finite(seen) || !finite(expected)) {
       ++result.non_finite;
-      if (is_nan(seen)) ++result.not_drawn;
+      if (core::is_nan_pixel(seen)) ++result.not_drawn;
       include(i, image.width, result.wrong);
       continue;
     }

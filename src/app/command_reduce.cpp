@@ -51,14 +51,18 @@ measure::RunOptions options_of(const ReduceArguments& arguments) {
           .program = version()};
 }
 
+bool has_wrong_counters(const reduction::Failure& failure) {
+  return failure.cause == judge::Cause::values_changed;
+}
+
 // Returns the command that reproduces the failure: `render`, except for wrong counters. These are
 // found by comparison with a second device, but `render` draws on only one device, so for wrong
 // counters the command is `reduce`.
 std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
                         const reduction::Failure& failure, const record::Record& record,
                         const record::Device& device) {
-  const bool picture = failure.cause != judge::Cause::values_changed;
-  report::Command command{.command = picture ? "render" : "reduce",
+  const bool counters = has_wrong_counters(failure);
+  report::Command command{.command = counters ? "reduce" : "render",
                           .object = std::string(frame.suite.name()),
                           .device = frame.device,
                           .factors = record::parse_factor_list(record.configuration),
@@ -66,7 +70,7 @@ std::string command_for(const OneFrame& frame, const ReduceArguments& arguments,
                           .limit = failure.reason.limit(),
                           .more = {"--truth", "--out", "again"},
                           .environment = device.environment};
-  if (!picture) command.more.insert(command.more.begin(), {"--against", arguments.against});
+  if (counters) command.more.insert(command.more.begin(), {"--against", arguments.against});
   return report::text_of(command);
 }
 
@@ -243,7 +247,7 @@ class Beginning {
 // the counters.
 std::string command_for_sequence(const Search& search, const reduction::Failure& failure,
                                  const fs::path& list) {
-  const bool picture = failure.cause != judge::Cause::values_changed;
+  const bool counters = has_wrong_counters(failure);
   return report::text_of(
       {.command = "gate",
        .object = search.arguments.after,
@@ -251,8 +255,8 @@ std::string command_for_sequence(const Search& search, const reduction::Failure&
        .factors = {},
        .injected = search.arguments.frame.faults,
        .limit = failure.reason.limit(),
-       .more = {"--measure", "--check", picture ? "image" : "counters", "--caselist", list.string(),
-                "--store", (search.out / "again.sqlite").string()},
+       .more = {"--measure", "--check", counters ? "counters" : "image", "--caselist",
+                list.string(), "--store", (search.out / "again.sqlite").string()},
        .environment = search.trial.device().environment});
 }
 

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <span>
 #include <utility>
 
+#include "core/nan_pixel.hpp"
 #include "measure/contract/not_drawn.hpp"
 
 namespace triptych::measure {
@@ -41,10 +41,6 @@ std::size_t count_pixels(const core::Image& image, const Predicate& counts) {
   return count;
 }
 
-bool is_overwritten(std::span<const float, 4> pixel) {
-  return std::ranges::all_of(pixel, [](float each) { return std::isnan(each); });
-}
-
 }  // namespace
 
 void FrameProof::start() {
@@ -52,7 +48,7 @@ void FrameProof::start() {
   if (started_) return;
   started_ = true;
   const core::Image before = prepared_.image();
-  const std::size_t kept = before.pixel_count() - count_pixels(before, is_overwritten);
+  const std::size_t kept = before.pixel_count() - count_pixels(before, core::is_nan_pixel);
   if (kept > 0) {
     throw NotDrawn(
         fmt::format("the image could not be overwritten before the first frame: {} of {} pixels "

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/image.hpp"
+#include "core/nan_pixel.hpp"
 
 namespace triptych::report {
 namespace {
@@ -157,12 +158,6 @@ void add_rows(const accuracy::RayHistory& history, PixelText& text) {
   }
 }
 
-// Returns whether the pixel was probably not drawn. Before each frame, Triptych sets all channels
-// of all pixels to NaN.
-bool is_untouched(const PixelColour& colour) {
-  return std::ranges::all_of(colour, [](float channel) { return std::isnan(channel); });
-}
-
 // Returns the largest error of all channels, or NaN if a channel is NaN.
 double error_of(const PixelInImage& pixel) {
   double error = 0;
@@ -175,7 +170,7 @@ double error_of(const PixelInImage& pixel) {
 }
 
 std::string about_image(const PixelInImage& pixel) {
-  if (is_untouched(pixel.image)) {
+  if (core::is_nan_pixel(pixel.image)) {
     return "the pixel was probably not drawn, because it is NaN in all channels, as before the "
            "frame";
   }
@@ -186,8 +181,8 @@ std::string about_image(const PixelInImage& pixel) {
 }
 
 std::string about_recorded(const PixelInImage& pixel) {
-  if (is_untouched(*pixel.recorded)) {
-    return is_untouched(pixel.image)
+  if (core::is_nan_pixel(*pixel.recorded)) {
+    return core::is_nan_pixel(pixel.image)
                ? "the device code that records samples did not draw the pixel, either, so the "
                  "fault is probably in the dispatch and not in the compiled code"
                : "the device code that records samples did not draw the pixel";
@@ -219,7 +214,7 @@ std::vector<std::string> summary_of(const PixelInImage& pixel,
   }
   const auto differing = std::ranges::count_if(
       history.rows, [](const SampleRow& row) { return row.differs.has_value(); });
-  if (history.rows.empty() && is_untouched(pixel.image)) return lines;
+  if (history.rows.empty() && core::is_nan_pixel(pixel.image)) return lines;
   if (!history.first) {
     lines.emplace_back(history.rows.empty() ? "the ray misses the volume"
                                             : "every number is within the interval that the "
