@@ -56,6 +56,14 @@ class StressGateTest : public JudgeTest {
     return result;
   }
 
+  // Expects that each image equals an image with skip=distance, which no run contains.
+  void expect_the_bits_of_an_absent_configuration() {
+    expected_ = [](const record::Record&) {
+      return std::vector<record::Expectation>{
+          {"the bits with another skip", record::SamePicture{.changed = {{"skip", "distance"}}}}};
+    };
+  }
+
   std::function<std::vector<record::Expectation>(const record::Record&)> expected_ =
       [](const record::Record&) { return std::vector<record::Expectation>{}; };
 };
@@ -196,10 +204,7 @@ TEST_F(StressGateTest, DifferentBitsLoseAPoint) {
 TEST_F(StressGateTest, APartOfAPlanNeedsNoOtherImages) {
   add_run("a");
   accept_scores("a");
-  expected_ = [](const record::Record&) {
-    return std::vector<record::Expectation>{
-        {"the bits with another skip", record::SamePicture{.changed = {{"skip", "distance"}}}}};
-  };
+  expect_the_bits_of_an_absent_configuration();
   EXPECT_EQ(with(gate("a"), Verdict::regression, Check::stress).size(), 12U);
   request_.part = true;
   EXPECT_EQ(with(gate("a"), Verdict::pass, Check::stress).size(), 12U);
@@ -210,10 +215,7 @@ TEST_F(StressGateTest, APartOfAPlanNeedsNoOtherImages) {
 TEST_F(StressGateTest, AnInterruptedRunLosesNoPointsForImagesThatAreStillMissing) {
   add_run("a");
   accept_scores("a");
-  expected_ = [](const record::Record&) {
-    return std::vector<record::Expectation>{
-        {"the bits with another skip", record::SamePicture{.changed = {{"skip", "distance"}}}}};
-  };
+  expect_the_bits_of_an_absent_configuration();
   std::vector<std::string> planned;
   for (const record::Record& record : store_.records("a")) planned.push_back(record.configuration);
   store_.begin("a", {}, planned);
