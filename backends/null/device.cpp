@@ -54,7 +54,8 @@ double frame_ns(const Script& script, const measure::Work& work, double device_f
   return ns;
 }
 
-core::Image picture(const Script& script, const measure::Work& work, const std::string& subject) {
+core::Image draw_image(const Script& script, const measure::Work& work,
+                       const std::string& subject) {
   if (script.draw) return script.draw(work);
   for (const auto& [glob, file] : script.images) {
     if (matches(glob, subject)) return core::read_exr(file);
@@ -119,7 +120,7 @@ class NullPrepared final : public measure::Prepared {
 
  private:
   [[nodiscard]] core::Image filled(float value) const {
-    core::Image image = picture(*script_, work_, subject_);
+    core::Image image = draw_image(*script_, work_, subject_);
     std::ranges::fill(image.rgba, value);
     return image;
   }
@@ -127,7 +128,7 @@ class NullPrepared final : public measure::Prepared {
   // Called once for each prepared work. A failure that the script limits to one occurrence (`once`)
   // therefore still affects all frames until the work is prepared again.
   [[nodiscard]] core::Image drawn_image() {
-    core::Image image = picture(*script_, work_, subject_);
+    core::Image image = draw_image(*script_, work_, subject_);
     failure_ = image_failure(*script_, subject_);
     if (failure_ == FailureKind::nan_image) {
       std::ranges::fill(image.rgba, std::numeric_limits<float>::quiet_NaN());

@@ -79,21 +79,21 @@ int stride_of(const ParticleWork& work) {
   return work.options.extra_work_stride;
 }
 
-// camera_key() and picture_key() describe everything that determines an image, but not how the
+// camera_key() and image_key() describe everything that determines an image, but not how the
 // image is computed.
 std::string camera_key(const scene::Camera& c) {
   return fmt::format("{} {} {} {} {} {} {} {}", c.eye.x, c.eye.y, c.eye.z, c.forward.x, c.forward.y,
                      c.forward.z, c.up.x, c.fov_y_deg);
 }
 
-std::string picture_key(const VolumeWork& work) {
+std::string image_key(const VolumeWork& work) {
   const scene::VolumeScene& scene = work.scene;
   return fmt::format("{} {} {} {} {}", scene.grid ? scene.grid->name : "",
                      scene.transfer_function.name, scene.step_voxels, scene.shading.enabled,
                      camera_key(scene.camera));
 }
 
-std::string picture_key(const ParticleWork& work) {
+std::string image_key(const ParticleWork& work) {
   const scene::ParticleScene& scene = work.scene;
   return fmt::format("{} {} {}", scene.particles ? scene.particles->name : "", scene.radius_scale,
                      camera_key(scene.camera));
@@ -145,12 +145,12 @@ std::string code_options(const ParticleWork& work) {
 }
 
 core::Image pattern(const VolumeWork& work) {
-  return slopes(work.scene.width, work.scene.height, picture_key(work),
+  return slopes(work.scene.width, work.scene.height, image_key(work),
                 static_cast<double>(work.options.fault));
 }
 
 core::Image pattern(const ParticleWork& work) {
-  core::Image image = slopes(work.scene.width, work.scene.height, picture_key(work),
+  core::Image image = slopes(work.scene.width, work.scene.height, image_key(work),
                              static_cast<double>(work.options.fault));
   add_particles(image, static_cast<std::uint32_t>(work.options.fault));
   return image;

@@ -60,7 +60,8 @@ class BvhFrames final : public measure::Prepared {
   void add_sort(const RayPrograms& programs, std::vector<Launch>& to) const;
   void add_fit(const RayPrograms& programs, bool moved, std::vector<Launch>& to) const;
   [[nodiscard]] Launch trace(const RayPrograms& programs, cl_uint stride) const;
-  [[nodiscard]] std::vector<Launch> picture(const RayPrograms& programs, cl_uint again) const;
+  [[nodiscard]] std::vector<Launch> frame_launches(const RayPrograms& programs,
+                                                   cl_uint again) const;
   [[nodiscard]] record::Counts read_counters();
 
   Session session_;
@@ -119,7 +120,7 @@ BvhFrames::BvhFrames(const Session& session, Programs& programs, const measure::
     add_sort(timed, build);
     add_fit(timed, false, build);
     if (session_.queue.executes()) run_checked(session_, build);
-    timed_ = picture(timed, static_cast<cl_uint>(options_.extra_work_stride));
+    timed_ = frame_launches(timed, static_cast<cl_uint>(options_.extra_work_stride));
   });
 }
 
@@ -161,7 +162,7 @@ Launch BvhFrames::trace(const RayPrograms& programs, cl_uint stride) const {
 }
 
 // `again` is the stride of the injected extra work, or 0 if there is none.
-std::vector<Launch> BvhFrames::picture(const RayPrograms& programs, cl_uint again) const {
+std::vector<Launch> BvhFrames::frame_launches(const RayPrograms& programs, cl_uint again) const {
   std::vector<Launch> launches;
   if (options_.structure == Structure::rebuilt) add_sort(programs, launches);
   if (options_.structure != Structure::built_once) {
@@ -189,7 +190,7 @@ measure::Frame BvhFrames::frame(measure::Purpose purpose) {
     if (counts) {
       ParticleConstants constants = constants_;
       constants.count = true;
-      if (counting_.empty()) counting_ = picture(ray_programs(programs_, constants), 0);
+      if (counting_.empty()) counting_ = frame_launches(ray_programs(programs_, constants), 0);
       fill_buffer(session_, counters_, 0, 8 * tiles_ * sizeof(cl_uint));
     }
     measure::Frame frame = run_.draw(session_, counts ? counting_ : timed_, purpose);
@@ -207,12 +208,12 @@ record::Counts BvhFrames::read_counters() {
 
 core::Image BvhFrames::image() {
   run_.check();
-  return read_picture(session_, {.width = width_,
-                                 .height = height_,
-                                 .near = near_,
-                                 .image = image_,
-                                 .ids = ids_,
-                                 .depths = depths_});
+  return read_shaded_image(session_, {.width = width_,
+                                      .height = height_,
+                                      .near = near_,
+                                      .image = image_,
+                                      .ids = ids_,
+                                      .depths = depths_});
 }
 
 }  // namespace

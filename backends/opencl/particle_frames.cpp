@@ -27,8 +27,8 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
       stages_(session, upload(session, work), work, constants_) {
   const ParticlePrograms timed = particle_programs(programs_, constants_);
   checked([&] {
-    picture_ = stages_.make_pass(timed, 1);
-    timed_ = stages_.picture(timed, picture_);
+    frame_pass_ = stages_.make_pass(timed, 1);
+    timed_ = stages_.frame_launches(timed, frame_pass_);
     if (const int stride = work.options.extra_work_stride; stride > 0) {
       extra_ = stages_.make_pass(timed, static_cast<cl_uint>(stride));
       const std::vector<Launch> again = stages_.again(timed, *extra_);
@@ -45,7 +45,7 @@ void ParticleFrames::draw_before(const ParticlePrograms& programs,
                                  const measure::ParticleWork& work) {
   look_from(session_, stages_.data(), work.before());
   const Pass unseen = stages_.make_pass(programs, 1);
-  run_checked(session_, stages_.picture(programs, unseen));
+  run_checked(session_, stages_.frame_launches(programs, unseen));
   look_from(session_, stages_.data(), work);
 }
 
@@ -65,7 +65,7 @@ void ParticleFrames::prepare_counting() {
   if (counting_.empty()) {
     ParticleConstants constants = constants_;
     constants.count = true;
-    counting_ = stages_.picture(particle_programs(programs_, constants), picture_);
+    counting_ = stages_.frame_launches(particle_programs(programs_, constants), frame_pass_);
   }
   stages_.forget_hidden();
   run_checked(session_, timed_);
@@ -92,26 +92,26 @@ record::Counts ParticleFrames::read_counters() {
 
 core::Image ParticleFrames::image() {
   run_.check();
-  return read_picture(session_, {.width = width_,
-                                 .height = height_,
-                                 .near = near_,
-                                 .image = stages_.image(),
-                                 .ids = stages_.ids(),
-                                 .depths = picture_.depths});
+  return read_shaded_image(session_, {.width = width_,
+                                      .height = height_,
+                                      .near = near_,
+                                      .image = stages_.image(),
+                                      .ids = stages_.ids(),
+                                      .depths = frame_pass_.depths});
 }
 
-core::Image read_picture(const Session& session, const ShadedPicture& picture) {
-  core::Image image(picture.width, picture.height);
+core::Image read_shaded_image(const Session& session, const ShadedImage& shaded) {
+  core::Image image(shaded.width, shaded.height);
   image.ids.resize(image.pixel_count());
   image.depth.resize(image.pixel_count());
   const auto read = [&](const cl::Buffer& from, auto& to) {
     read_buffer(session, from, to.size() * sizeof to[0], to.data());
   };
-  read(picture.image, image.rgba);
-  read(picture.ids, image.ids);
-  read(picture.depths, image.depth);
+  read(shaded.image, image.rgba);
+  read(shaded.ids, image.ids);
+  read(shaded.depths, image.depth);
   for (float& z : image.depth) {
-    z = z > 0 ? static_cast<float>(picture.near / static_cast<double>(z))
+    z = z > 0 ? static_cast<float>(shaded.near / static_cast<double>(z))
               : std::numeric_limits<float>::infinity();
   }
   return image;

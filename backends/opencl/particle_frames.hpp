@@ -14,7 +14,7 @@ namespace triptych::opencl_backend {
 
 // The image that shading has left on the device. `depths` are reversed; 0 means that there is no
 // particle.
-struct ShadedPicture {
+struct ShadedImage {
   int width = 0;
   int height = 0;
   double near = 1;
@@ -22,7 +22,7 @@ struct ShadedPicture {
   const cl::Buffer& ids;
   const cl::Buffer& depths;
 };
-[[nodiscard]] core::Image read_picture(const Session& session, const ShadedPicture& picture);
+[[nodiscard]] core::Image read_shaded_image(const Session& session, const ShadedImage& shaded);
 
 class ParticleFrames final : public measure::Prepared {
  public:
@@ -31,7 +31,7 @@ class ParticleFrames final : public measure::Prepared {
   ParticleFrames(const Session& session, Programs& programs, const measure::ParticleWork& work,
                  Sprite sprite);
 
-  void poison() override { stages_.poison(picture_); }
+  void poison() override { stages_.poison(frame_pass_); }
   [[nodiscard]] measure::Frame frame(measure::Purpose purpose) override;
   [[nodiscard]] core::Image image() override;
   [[nodiscard]] std::string kernel_hash() const override { return particle_hash(constants_); }
@@ -48,7 +48,7 @@ class ParticleFrames final : public measure::Prepared {
   double near_;
   ParticleConstants constants_;
   ParticleStages stages_;
-  Pass picture_;
+  Pass frame_pass_;
   std::optional<Pass> extra_;  // the injected slowdown
   std::vector<Launch> timed_;
   std::vector<Launch> counting_;

@@ -208,8 +208,8 @@ Launch ParticleStages::shade(const ParticlePrograms& programs, const Pass& pass)
                      sprite_colours_, pass.winners, cosines_, image_, ids_);
 }
 
-std::vector<Launch> ParticleStages::picture(const ParticlePrograms& programs,
-                                            const Pass& pass) const {
+std::vector<Launch> ParticleStages::frame_launches(const ParticlePrograms& programs,
+                                                   const Pass& pass) const {
   std::vector<Launch> launches{cull(programs)};
   add_drawing(programs, pass, drawn_first, launches);
   if (culling_ == technique::Culling::occlusion) {

@@ -46,8 +46,8 @@ class ParticleStages {
   // Throws core::NotSupported if the entries need more memory than a buffer may have.
   [[nodiscard]] Pass make_pass(const ParticlePrograms& programs, cl_uint stride);
   // Returns the launches of a frame.
-  [[nodiscard]] std::vector<Launch> picture(const ParticlePrograms& programs,
-                                            const Pass& pass) const;
+  [[nodiscard]] std::vector<Launch> frame_launches(const ParticlePrograms& programs,
+                                                   const Pass& pass) const;
   // Returns the launches that draw the cells of a pass a second time.
   [[nodiscard]] std::vector<Launch> again(const ParticlePrograms& programs, const Pass& pass) const;
   // Overwrites everything that the frames of a pass write: the image, and the data that kernels

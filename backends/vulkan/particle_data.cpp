@@ -147,13 +147,13 @@ void ParticleData::clear_counters(const vk::raii::CommandBuffer& commands) const
 }
 
 record::Counts ParticleData::counts(technique::Method method, technique::Culling culling,
-                                    const core::Image& picture) const {
+                                    const core::Image& image) const {
   std::vector<std::uint32_t> sums(technique::particle_counter_bytes / sizeof(std::uint32_t));
   download(gpu_, counters_, std::as_writable_bytes(std::span(sums)));
   measure::check_counted(sums);
   return technique::particle_counts(
       {.method = method, .culling = culling, .cells = cells_, .particles = particles_}, sums,
-      picture);
+      image);
 }
 
 }  // namespace triptych::vulkan_backend

@@ -77,7 +77,7 @@ class ParticleData {
   // Returns the counters of a frame whose shaders counted their work. The device must have finished
   // that frame.
   [[nodiscard]] record::Counts counts(technique::Method method, technique::Culling culling,
-                                      const core::Image& picture) const;
+                                      const core::Image& image) const;
 
  private:
   const Gpu& gpu_;

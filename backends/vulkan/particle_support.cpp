@@ -76,8 +76,8 @@ std::optional<std::string> feature_reason(const Gpu& gpu, Needs needs) {
   return std::nullopt;
 }
 
-std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height, Needs needs,
-                                          std::uint64_t pixel_bytes) {
+std::optional<std::string> image_reason(const Gpu& gpu, int width, int height, Needs needs,
+                                        std::uint64_t pixel_bytes) {
   const vk::PhysicalDeviceLimits& limits = gpu.properties.limits;
   if (needs != Needs::nothing) {
     const std::uint32_t limit =
@@ -139,12 +139,12 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   std::uint64_t pixel_bytes = reads_depths ? depth : 0;
   const bool draws_sprites = drawn.method == technique::Method::sprites;
   if (!draws_sprites) pixel_bytes = depth + sizeof(std::uint32_t);  // plus the id of a particle
-  if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
+  if (auto reason = image_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
   }
-  constexpr std::uint64_t picture_bytes = colour + 4 * sizeof(std::uint32_t);
+  constexpr std::uint64_t image_bytes = colour + 4 * sizeof(std::uint32_t);
   return memory_reason(gpu, particle_bytes(set) * set.count() +
-                                picture_bytes * static_cast<std::uint64_t>(scene.width) *
+                                image_bytes * static_cast<std::uint64_t>(scene.width) *
                                     static_cast<std::uint64_t>(scene.height));
 }
 

@@ -27,8 +27,8 @@ enum class Needs : std::uint8_t {
 // Returns the limit that an image of this size exceeds. The limits are the framebuffer size, if the
 // technique draws into a framebuffer, and the size of a storage buffer with `pixel_bytes` per
 // pixel.
-[[nodiscard]] std::optional<std::string> picture_reason(const Gpu& gpu, int width, int height,
-                                                        Needs needs, std::uint64_t pixel_bytes);
+[[nodiscard]] std::optional<std::string> image_reason(const Gpu& gpu, int width, int height,
+                                                      Needs needs, std::uint64_t pixel_bytes);
 [[nodiscard]] std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed);
 
 [[nodiscard]] std::optional<std::string> volume_reason(const Gpu& gpu,

@@ -64,7 +64,7 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
   if (!cut.parts.empty()) buffers.pauses = technique::pauses_bytes(scene, work.options);
   if (auto reason = voxels_reason(gpu, work, buffers, cut)) return reason;
   constexpr std::uint64_t pixel_bytes = technique::raycast_counter_stride * sizeof(std::uint32_t);
-  if (auto reason = picture_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
+  if (auto reason = image_reason(gpu, scene.width, scene.height, needs, pixel_bytes)) {
     return reason;
   }
   if (auto reason = technique::buffer_reason(buffers, gpu.properties.limits.maxStorageBufferRange,

@@ -112,8 +112,8 @@ class Window:
         self.window.Render()
         pixels = vtkCommonCore.vtkUnsignedCharArray()
         self.window.GetRGBACharPixelData(0, 0, self.edge - 1, self.edge - 1, 0, pixels)
-        picture = numpy_support.vtk_to_numpy(pixels).reshape(self.edge, self.edge, 4)[::-1] / 255.0
-        return float(((picture - limit) ** 2).mean() ** 0.5)
+        image = numpy_support.vtk_to_numpy(pixels).reshape(self.edge, self.edge, 4)[::-1] / 255.0
+        return float(((image - limit) ** 2).mean() ** 0.5)
 
 
 def pixel_rays(frame, edge):

@@ -32,7 +32,7 @@ class Spheres:
         begin = len(head) + 16  # the offsets of the first frame and of the end of the file come first
         file.write_bytes(head + struct.pack("<2Q", begin, begin + len(body)) + body)
 
-    def picture(self, frame):
+    def image(self, frame):
         """Returns the reference image in premultiplied RGBA, top row first. Tests all pixels in the square around each
         silhouette."""
         rays = peer.pixel_rays(frame, EDGE)

@@ -234,7 +234,7 @@ std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases) {
   return result;
 }
 
-std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
+std::optional<Switched> switched_between(std::span<const AccuracyCase> cases,
                                          std::span<const AccuracyCase> others,
                                          std::string_view factor) {
   for (const std::size_t from : by_accuracy(cases)) {

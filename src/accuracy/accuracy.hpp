@@ -122,7 +122,7 @@ struct Switched {
 // Like switched_alone(), but for a single factor that changes the image, so that `cases` and
 // `others` have different limit images. Returns the most accurate of `cases` that has a counterpart
 // in `others`, and this counterpart, or nullopt if there is none.
-[[nodiscard]] std::optional<Switched> switched_picture(std::span<const AccuracyCase> cases,
+[[nodiscard]] std::optional<Switched> switched_between(std::span<const AccuracyCase> cases,
                                                        std::span<const AccuracyCase> others,
                                                        std::string_view factor);
 

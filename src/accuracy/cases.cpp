@@ -57,20 +57,20 @@ core::Image in_eight_bits(core::Image image) {
 
 }  // namespace
 
-std::optional<PictureError> picture_error(const core::Image& picture, const core::Image& truth,
-                                          const core::Image& limit) {
+std::optional<LimitErrors> limit_errors(const core::Image& image, const core::Image& truth,
+                                        const core::Image& limit) {
   constexpr double any = std::numeric_limits<double>::infinity();
-  const ImageComparison whole = compare(picture, limit, any);
-  const double arithmetic = accuracy::root_mean_square(picture, truth);
+  const ImageComparison whole = compare(image, limit, any);
+  const double arithmetic = accuracy::root_mean_square(image, truth);
   const double lattice = accuracy::root_mean_square(truth, limit);
   if (whole.size_mismatch || whole.non_finite > 0 || whole.pixels == 0 ||
       !std::isfinite(arithmetic) || !std::isfinite(lattice)) {
     return std::nullopt;
   }
-  return PictureError{whole.rmse, whole.largest.error, whole.error_99, lattice, arithmetic};
+  return LimitErrors{whole.rmse, whole.largest.error, whole.error_99, lattice, arithmetic};
 }
 
-AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
+AccuracyCase accuracy_case(const record::Record& record, const LimitErrors& error,
                            std::string_view clock) {
   const auto summary = record::summarise(record.time_ns_by(clock));
   AccuracyCase result{.configuration = record.configuration,
@@ -93,7 +93,7 @@ AccuracyCase accuracy_case(const record::Record& record, const PictureError& err
   return result;
 }
 
-AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit) {
+AccuracyScene accuracy_scene(const record::Record& record, const LimitImage& limit) {
   AccuracyScene scene;
   scene.device = record.device;
   scene.limit = limit.key;

@@ -16,14 +16,14 @@
 namespace triptych::accuracy {
 
 // The limit image of a scene: the image for step → 0.
-struct LimitPicture {
+struct LimitImage {
   std::string key;  // equal for all records that share this limit image
   core::Image image;
   core::Image uncertainty;  // per pixel, a bound on the distance from the exact limit image
   std::optional<core::Image> closed_form;
 };
 
-struct PictureError {
+struct LimitErrors {
   double rmse = 0;
   double largest = 0;
   double error_99 = 0;
@@ -33,17 +33,17 @@ struct PictureError {
 // Returns the errors of an image compared with its limit image. `truth` is the reference image at
 // the sample positions of the device's image. Returns nullopt if the three images differ in size,
 // or if the device's image contains a value that is not finite.
-[[nodiscard]] std::optional<PictureError> picture_error(const core::Image& picture,
-                                                        const core::Image& truth,
-                                                        const core::Image& limit);
+[[nodiscard]] std::optional<LimitErrors> limit_errors(const core::Image& image,
+                                                      const core::Image& truth,
+                                                      const core::Image& limit);
 
 // One scene on one device.
 struct AccuracyScene {
   std::string device;
-  std::string limit;  // LimitPicture::key; equal for scenes with the same limit image
+  std::string limit;  // LimitImage::key; equal for scenes with the same limit image
   std::string scene;  // "camera=…,data=…": the factor levels that all cases share
   std::string data;
-  double uncertainty = 0;  // root mean square of LimitPicture::uncertainty
+  double uncertainty = 0;  // root mean square of LimitImage::uncertainty
   // Root mean square difference between the limit image and the closed-form solution, which the
   // voxel grid and the transfer-function table cannot represent exactly.
   std::optional<double> representation;
@@ -58,13 +58,13 @@ struct AccuracyScene {
 };
 
 // Combines a record, the errors of its image, and the median of its times on the clock `clock`.
-[[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const PictureError& error,
+[[nodiscard]] AccuracyCase accuracy_case(const record::Record& record, const LimitErrors& error,
                                          std::string_view clock);
 
 // accuracy_scene() returns a scene without cases. narrow() removes factor levels from
 // AccuracyScene::scene: those that `record` does not have. evaluate() computes the results after
 // all cases have been added.
-[[nodiscard]] AccuracyScene accuracy_scene(const record::Record& record, const LimitPicture& limit);
+[[nodiscard]] AccuracyScene accuracy_scene(const record::Record& record, const LimitImage& limit);
 void narrow(AccuracyScene& scene, const record::Record& record);
 void evaluate(AccuracyScene& scene);
 

@@ -53,16 +53,16 @@ StepError shortened_step(double step, double error, const StepLimits& limits,
   }
 }
 
-PictureSize search_size(const PictureSize& picture) {
+ImageSize search_size(const ImageSize& image) {
   constexpr double most_pixels = 48.0 * 48.0;
   constexpr int shortest_side = 8;
-  const int longer = std::max(picture.width, picture.height);
-  const int shorter = std::min(picture.width, picture.height);
+  const int longer = std::max(image.width, image.height);
+  const int shorter = std::min(image.width, image.height);
   const double scale = std::min(std::sqrt(most_pixels / longer / shorter), 1.0);
   const int side = std::max(static_cast<int>(shorter * scale), std::min(shorter, shortest_side));
   const int other =
       std::clamp(static_cast<int>(std::min(longer * scale, most_pixels / side)), side, longer);
-  return picture.width >= picture.height ? PictureSize{other, side} : PictureSize{side, other};
+  return image.width >= image.height ? ImageSize{other, side} : ImageSize{side, other};
 }
 
 std::optional<std::size_t> cheapest(std::span<const TimedError> cases, double error) {

@@ -45,11 +45,11 @@ using ErrorOfStep = std::function<double(double step)>;
 // The size of the image on which the search runs, for an image of the given size. It has the same
 // aspect ratio and at most about 48² pixels, but each side has at least eight pixels or its
 // original size. A long, narrow image is therefore shortened, but not reduced to a line.
-struct PictureSize {
+struct ImageSize {
   int width = 0;
   int height = 0;
 };
-[[nodiscard]] PictureSize search_size(const PictureSize& picture);
+[[nodiscard]] ImageSize search_size(const ImageSize& image);
 
 // The time and the error of a measurement.
 struct TimedError {

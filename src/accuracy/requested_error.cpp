@@ -54,11 +54,11 @@ std::string text_of(const RequestedError& request) {
   return fmt::format("{}:{}", request.error, name_of(request.metric));
 }
 
-PictureErrors errors_against(const core::Image& limit, const core::Image& picture) {
-  PictureErrors errors;
+ErrorsByMetric errors_against(const core::Image& limit, const core::Image& image) {
+  ErrorsByMetric errors;
   errors.by_metric.fill(std::numeric_limits<double>::quiet_NaN());
-  if (limit.width != picture.width || limit.height != picture.height || limit.rgba.empty() ||
-      limit.rgba.size() != picture.rgba.size()) {
+  if (limit.width != image.width || limit.height != image.height || limit.rgba.empty() ||
+      limit.rgba.size() != image.rgba.size()) {
     return errors;
   }
   double squares = 0;
@@ -67,7 +67,7 @@ PictureErrors errors_against(const core::Image& limit, const core::Image& pictur
     bool covered = false;
     for (std::size_t c = 4 * i; c < 4 * i + 4; ++c) {
       const double difference =
-          std::abs(static_cast<double>(limit.rgba[c]) - static_cast<double>(picture.rgba[c]));
+          std::abs(static_cast<double>(limit.rgba[c]) - static_cast<double>(image.rgba[c]));
       squares += difference * difference;
       pixels[i] = std::max(pixels[i], difference);
       covered = covered || limit.rgba[c] != 0;
@@ -84,7 +84,7 @@ PictureErrors errors_against(const core::Image& limit, const core::Image& pictur
   return errors;
 }
 
-PictureErrors errors_of_nothing(const core::Image& limit) {
+ErrorsByMetric errors_of_nothing(const core::Image& limit) {
   return errors_against(limit, core::Image(limit.width, limit.height));
 }
 

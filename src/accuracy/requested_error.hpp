@@ -31,7 +31,7 @@ struct RequestedError {
 [[nodiscard]] std::string text_of(const RequestedError& request);
 
 // The errors of an image, measured against its limit image.
-struct PictureErrors {
+struct ErrorsByMetric {
   std::array<double, all_metrics.size()> by_metric{};
   std::size_t covered = 0;  // number of non-background pixels of the limit image
 
@@ -42,8 +42,8 @@ struct PictureErrors {
 // Computes the errors. The images must have a background of 0. Metric::covered divides by the
 // number of covered pixels, but it also includes the errors of all other pixels. All errors are NaN
 // if the sizes differ or if a value is not finite.
-[[nodiscard]] PictureErrors errors_against(const core::Image& limit, const core::Image& picture);
+[[nodiscard]] ErrorsByMetric errors_against(const core::Image& limit, const core::Image& image);
 // Returns the errors of an image in which nothing is drawn.
-[[nodiscard]] PictureErrors errors_of_nothing(const core::Image& limit);
+[[nodiscard]] ErrorsByMetric errors_of_nothing(const core::Image& limit);
 
 }  // namespace triptych::accuracy

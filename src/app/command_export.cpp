@@ -49,9 +49,9 @@ class Errors {
     if (record.image.empty() || truths == truths_.end()) return {};
     std::vector<report::ImageError> errors;
     try {
-      const core::Image image = truths->second.picture_of(record);
+      const core::Image image = truths->second.image_of(record);
       add("reference", truths->second.of(record).truth, image, errors);
-      if (const accuracy::LimitPicture* limit = truths->second.limit_of(record)) {
+      if (const accuracy::LimitImage* limit = truths->second.limit_of(record)) {
         add("limit", limit->image, image, errors);
       }
     } catch (const core::Error& error) {
@@ -64,7 +64,7 @@ class Errors {
  private:
   static void add(const std::string& against, const core::Image& right, const core::Image& image,
                   std::vector<report::ImageError>& errors) {
-    const accuracy::PictureErrors all = accuracy::errors_against(right, image);
+    const accuracy::ErrorsByMetric all = accuracy::errors_against(right, image);
     for (const accuracy::Metric metric : accuracy::all_metrics) {
       const double error = all.of(metric);
       if (std::isnan(error)) continue;  // the images cannot be compared

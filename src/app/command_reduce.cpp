@@ -85,11 +85,11 @@ std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Tri
   core::write_text(out / "frame.json", core::json_text(json, 2) + "\n");
   const judge::TruthPair& pair = truths.of(record);
   if (record.image.empty()) {
-    report::write_picture(out, "truth", pair.truth);
+    report::write_image_files(out, "truth", pair.truth);
     return files;
   }
-  const core::Image image = truths.picture_of(record);
-  report::write_picture(out, "image", image);
+  const core::Image image = truths.image_of(record);
+  report::write_image_files(out, "image", image);
   static_cast<void>(report::write_difference(out, image, pair));
   files.insert(files.end(), {"image.png", "difference.png"});
   return files;
@@ -125,7 +125,7 @@ std::vector<std::string> write_dump_of(const OneFrame& frame, const ReduceArgume
   if (!record.image.empty()) {
     const judge::TruthPair& pair = truths.of(record);
     const accuracy::ImageComparison compared =
-        accuracy::compare(truths.picture_of(record), pair.truth, pair.bound);
+        accuracy::compare(truths.image_of(record), pair.truth, pair.bound);
     const bool surface = compared.first_wrong.x >= 0;
     const int x = surface ? compared.first_wrong.x : compared.worst.x;
     const int y = surface ? compared.first_wrong.y : compared.worst.y;

@@ -152,7 +152,7 @@ core::ExitCode keep(const RenderArguments& arguments, measure::SuiteWithTruth& s
                     const core::Image& image,
                     const std::function<judge::TruthPair(const record::Record&)>& truth) {
   const fs::path out(arguments.frame.out);
-  report::write_picture(out, "image", image);
+  report::write_image_files(out, "image", image);
   const core::Json frame = report::frame_json(suite.describe(record.factors), record, device);
   core::write_text(out / "frame.json", core::json_text(frame, 2) + "\n");
   put("{}\n", (out / "image.exr").string());
@@ -218,7 +218,7 @@ core::ExitCode render(const RenderArguments& arguments) {
                                                      : draw_one(drawing, plan);
   record::require_measured(record);
   if (record.image.empty()) throw core::InputError(record.technique + " does not produce an image");
-  const core::Image image = store.picture(record.image);
+  const core::Image image = store.decoded_image(record.image);
   return keep(arguments, suite, record, store.devices(run).at(0).device, image,
               [&](const record::Record& of) { return truths.of(of); });
 }

@@ -94,11 +94,11 @@ core::ExitCode check(const CheckArguments& arguments) {
   measure::Truths truths(registry.find_suite(), store);
   judge::GateResult result = judge_store(arguments, store, truths);
   excuse_absent_data(store, result);
-  judge::FindTruth pictured;
+  judge::FindTruth find_truth;
   if (arguments.check == "image") {
-    pictured = [&](const record::Record& record) { return truths.of(record); };
+    find_truth = [&](const record::Record& record) { return truths.of(record); };
   }
-  put_lines(report::ctest_answer(result, store, pictured));
+  put_lines(report::ctest_answer(result, store, find_truth));
   if (const auto reason = report::reason_to_skip(result)) {
     put("skipped: {}\n", *reason);
     return core::ExitCode::skip;

@@ -31,8 +31,8 @@ class Differ {
       : a_(a), b_(b), truths_(truths), same_setup_(same_setup) {}
 
   [[nodiscard]] ConfigurationDiff both(const record::Record& a, const record::Record& b) const {
-    const core::Image image_a = picture(a_, a);
-    const core::Image image_b = picture(b_, b);
+    const core::Image image_a = image_of(a_, a);
+    const core::Image image_b = image_of(b_, b);
     const judge::FindOpenCounts open_counts = [this](const record::Record& record) {
       return truths_.open_counts_of(record);
     };
@@ -63,8 +63,8 @@ class Differ {
   }
 
  private:
-  static core::Image picture(const RunSide& side, const record::Record& record) {
-    return record.image.empty() ? core::Image() : side.store.picture(record.image);
+  static core::Image image_of(const RunSide& side, const record::Record& record) {
+    return record.image.empty() ? core::Image() : side.store.decoded_image(record.image);
   }
 
   static std::optional<record::Outcome> ended(const record::Record& a, const record::Record& b) {

@@ -8,7 +8,7 @@
 #include "core/error.hpp"
 #include "core/file.hpp"
 #include "core/image_io.hpp"
-#include "core/rgb_picture.hpp"
+#include "core/rgb_image.hpp"
 
 namespace triptych::core {
 namespace {
@@ -23,12 +23,12 @@ std::uint8_t srgb8(float linear) {
 }  // namespace
 
 // Ignores alpha, because compositing over black does not change a premultiplied colour.
-RgbPicture to_srgb(const Image& image) {
-  RgbPicture picture{image.width, image.height, {}};
-  picture.rgb.resize(3 * image.pixel_count());
+RgbImage to_srgb(const Image& image) {
+  RgbImage rgb_image{image.width, image.height, {}};
+  rgb_image.rgb.resize(3 * image.pixel_count());
   for (std::size_t i = 0; i < image.pixel_count(); ++i) {
     const float* in = image.rgba.data() + 4 * i;
-    std::uint8_t* out = picture.rgb.data() + 3 * i;
+    std::uint8_t* out = rgb_image.rgb.data() + 3 * i;
     if (std::any_of(in, in + 4, [](float c) { return std::isnan(c); })) {
       out[0] = 255;
       out[1] = 0;
@@ -37,26 +37,26 @@ RgbPicture to_srgb(const Image& image) {
       std::transform(in, in + 3, out, srgb8);
     }
   }
-  return picture;
+  return rgb_image;
 }
 
-std::vector<std::byte> encode_png(const RgbPicture& picture) {
+std::vector<std::byte> encode_png(const RgbImage& rgb_image) {
   const auto pixels =
-      static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
-  if (picture.width < 1 || picture.height < 1 || picture.rgb.size() != 3 * pixels) {
+      static_cast<std::size_t>(rgb_image.width) * static_cast<std::size_t>(rgb_image.height);
+  if (rgb_image.width < 1 || rgb_image.height < 1 || rgb_image.rgb.size() != 3 * pixels) {
     throw InputError(
         fmt::format("cannot write a PNG image of {}x{} pixels: the number of RGB values does not "
                     "match ({})",
-                    picture.width, picture.height, picture.rgb.size()));
+                    rgb_image.width, rgb_image.height, rgb_image.rgb.size()));
   }
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(picture.width);
-  png.height = static_cast<png_uint_32>(picture.height);
+  png.width = static_cast<png_uint_32>(rgb_image.width);
+  png.height = static_cast<png_uint_32>(rgb_image.height);
   png.format = PNG_FORMAT_RGB;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::vector<std::byte> bytes(size);
-  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, picture.rgb.data(), 0, nullptr) ==
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, rgb_image.rgb.data(), 0, nullptr) ==
       0) {
     throw InputError(fmt::format("libpng cannot encode the image: {}", png.message));
   }

@@ -17,7 +17,7 @@ namespace triptych::record {
 using Changed = std::map<std::string, std::string>;
 
 // The image must equal the image of another configuration.
-struct SamePicture {
+struct SameImage {
   Changed changed;
   bool mirrored_x = false;  // whether the other image is mirrored horizontally
   bool mirrored_y = false;  // whether the other image is mirrored vertically
@@ -53,7 +53,7 @@ struct MayBeRefused {};
 
 struct Expectation {
   std::string what;  // states the expectation and the reason for it on one line
-  std::variant<SamePicture, OneColour, CountAtMost, MayBeRefused> rule;
+  std::variant<SameImage, OneColour, CountAtMost, MayBeRefused> rule;
 };
 
 }  // namespace triptych::record

@@ -284,7 +284,7 @@ std::vector<std::byte> Store::image(std::string_view hash) const {
   });
 }
 
-core::Image Store::picture(std::string_view hash) const {
+core::Image Store::decoded_image(std::string_view hash) const {
   return core::decode_exr(image(hash), fmt::format("{}: image '{}'", state_->file.string(), hash));
 }
 

@@ -125,7 +125,7 @@ class Store {
       std::string_view hash) const;  // throws InputError if there is none
   // Returns the decoded image. If it is not a usable EXR file, throws an InputError that names the
   // store and the image.
-  [[nodiscard]] core::Image picture(std::string_view hash) const;
+  [[nodiscard]] core::Image decoded_image(std::string_view hash) const;
   [[nodiscard]] std::optional<TruthImage> truth(std::string_view scene,
                                                 std::string_view version) const;
   // Returns the disassembly with this hash, or nullopt if the store does not contain it.

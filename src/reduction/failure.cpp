@@ -13,7 +13,7 @@ std::optional<judge::Observation> image_fault(const record::Record& record,
                                               const Evidence& evidence) {
   if (record.image.empty()) return std::nullopt;
   const judge::TruthPair pair = evidence.truth(record);
-  const core::Image image = evidence.picture(record);
+  const core::Image image = evidence.image(record);
   judge::Observation what =
       judge::image_observation(accuracy::compare(image, pair.truth, pair.bound), image, pair.truth,
                                judge::Against::reference);

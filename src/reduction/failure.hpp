@@ -22,7 +22,7 @@ using Failure = judge::Observation;
 // The functions that provide the data with which a record is compared.
 struct Evidence {
   judge::FindTruth truth;
-  std::function<core::Image(const record::Record&)> picture;  // returns the record's image
+  std::function<core::Image(const record::Record&)> image;  // returns the record's image
   // Returns the record of the same configuration on another device, whose counters are assumed to
   // be correct. If this function is not set, counters are not compared.
   std::function<record::Record(const record::Record&)> other = {};

@@ -34,7 +34,7 @@ std::optional<Failure> Trial::after(std::span<const measure::Configuration> befo
 Evidence Trial::evidence(const measure::Configuration& configuration) {
   Evidence evidence{
       .truth = [this](const record::Record& record) { return truths_.of(record); },
-      .picture = [this](const record::Record& record) { return truths_.picture_of(record); },
+      .image = [this](const record::Record& record) { return truths_.image_of(record); },
       .open_counts =
           [this](const record::Record& record) { return truths_.open_counts_of(record); }};
   if (other_) {

@@ -22,7 +22,7 @@ double largest_difference(const std::array<double, 4>& a, const std::array<doubl
 
 }  // namespace
 
-SpherePicture::SpherePicture(const scene::ParticleScene& scene_, const SphereErrorModel& model_)
+SphereSetup::SphereSetup(const scene::ParticleScene& scene_, const SphereErrorModel& model_)
     : scene(scene_),
       model(model_),
       pixel_(2 * std::tan(scene.camera.fov_y_deg * std::numbers::pi / 360) / scene.height),
@@ -33,7 +33,7 @@ SpherePicture::SpherePicture(const scene::ParticleScene& scene_, const SphereErr
 // axis, because `along` is the cosine between the ray and this axis. A displacement by ε in that
 // plane rotates the ray by φ with sin φ ≤ x = ε·along, and 2·sin(φ/2) ≤ x/cos(φ/2). For x ≥ 1, even
 // opposite rays are possible.
-double SpherePicture::chord(double pixels, double along) const {
+double SphereSetup::chord(double pixels, double along) const {
   const double sine = pixels * pixel_ * along;
   if (!(sine < 1)) return 2;
   return sine / std::sqrt(0.5 + 0.5 * std::sqrt(1 - sine * sine));
@@ -43,13 +43,13 @@ double SpherePicture::chord(double pixels, double along) const {
 // and κ = chord + shift (Wobble). According to reach(), a nearby ray may hit a sphere in the box
 // only if the central ray comes within δ ≤ κD of the sphere, and the hit may move along the ray by
 // up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for rounding.
-double SpherePicture::growth() const {
+double SphereSetup::growth() const {
   const double turn = chord(std::max(model.margin_px, model.lateral_px), 1.0);
   const double kappa = turn + model.lateral_relative;
   return (kappa + turn + 0.5 * turn * turn) * (1 + 1e-9) + 1e-12;
 }
 
-std::array<double, 3> SpherePicture::colour(std::size_t index) const {
+std::array<double, 3> SphereSetup::colour(std::size_t index) const {
   const scene::ParticleSet& set = *scene.particles;
   switch (set.colour) {
     case scene::ColourKind::rgba8: {
@@ -71,8 +71,8 @@ SpherePixel SphereTracer::operator()(int x, int y) {
   const View view = this->view(x, y);
   candidates_.clear();
   covered_ = distance_ = unreached;
-  const double slack = picture_.model.depth_relative * picture_.tree.farthest();
-  picture_.tree.walk(
+  const double slack = setup_.model.depth_relative * setup_.tree.farthest();
+  setup_.tree.walk(
       view.direction, [&] { return (covered_ + slack) / view.along * (1 + 1e-12); },
       [&](std::uint32_t place) { meet(view, place); });
 
@@ -82,9 +82,9 @@ SpherePixel SphereTracer::operator()(int x, int y) {
     const Passage ray = pass(view, shown_);
     pixel.rgba = shaded(shown_, std::sqrt(ray.half_squared) / ray.radius);
     pixel.depth = distance_ * view.along;
-    pixel.id = picture_.scene.particles->ids[picture_.tree.sphere(shown_).index];
+    pixel.id = setup_.scene.particles->ids[setup_.tree.sphere(shown_).index];
   } else {
-    std::ranges::copy(picture_.scene.background, pixel.rgba.begin());
+    std::ranges::copy(setup_.scene.background, pixel.rgba.begin());
     pixel.depth = unreached;
     pixel.id = core::Image::no_particle;
   }
@@ -97,14 +97,14 @@ SpherePixel SphereTracer::operator()(int x, int y) {
   } else if (hit) {
     bound_shown(view, pixel);
   }
-  pixel.bound += picture_.model.colour_relative;
+  pixel.bound += setup_.model.colour_relative;
   return pixel;
 }
 
 std::vector<std::uint32_t> SphereTracer::spheres_near(int x, int y) const {
   const View view = this->view(x, y);
   std::vector<Candidate> found;
-  picture_.tree.walk(
+  setup_.tree.walk(
       view.direction, [] { return unreached; },
       [&](std::uint32_t place) {
         const Reach reached = reach(pass(view, place), view.margin);
@@ -113,26 +113,26 @@ std::vector<std::uint32_t> SphereTracer::spheres_near(int x, int y) const {
   std::ranges::stable_sort(found, {}, &Candidate::nearest);
   std::vector<std::uint32_t> indices;
   indices.reserve(found.size());
-  for (const Candidate& each : found) indices.push_back(picture_.tree.sphere(each.place).index);
+  for (const Candidate& each : found) indices.push_back(setup_.tree.sphere(each.place).index);
   return indices;
 }
 
 SphereTracer::View SphereTracer::view(int x, int y) const {
-  const scene::ParticleScene& scene = picture_.scene;
-  const SphereErrorModel& model = picture_.model;
+  const scene::ParticleScene& scene = setup_.scene;
+  const SphereErrorModel& model = setup_.model;
   View view;
   view.direction = scene.camera.ray_direction(x, y, scene.width, scene.height);
   view.along = glm::dot(view.direction, scene.camera.forward);
-  view.lateral = {picture_.chord(model.lateral_px, view.along), model.lateral_relative,
+  view.lateral = {setup_.chord(model.lateral_px, view.along), model.lateral_relative,
                   model.depth_relative};
   view.margin = view.lateral;
-  view.margin.chord = picture_.chord(std::max(model.margin_px, model.lateral_px), view.along);
+  view.margin.chord = setup_.chord(std::max(model.margin_px, model.lateral_px), view.along);
   return view;
 }
 
 Passage SphereTracer::pass(const View& view, std::uint32_t place) const {
-  const SphereTree::Sphere& sphere = picture_.tree.sphere(place);
-  return passage(view.direction, glm::dvec3(sphere.centre) - picture_.scene.camera.eye,
+  const SphereTree::Sphere& sphere = setup_.tree.sphere(place);
+  return passage(view.direction, glm::dvec3(sphere.centre) - setup_.scene.camera.eye,
                  sphere.radius);
 }
 
@@ -140,7 +140,7 @@ void SphereTracer::meet(const View& view, std::uint32_t place) {
   const Passage ray = pass(view, place);
   const Reach reached = reach(ray, view.margin);
   if (!reached.possible) return;
-  const double error = picture_.model.depth_relative * (ray.distance + ray.radius);
+  const double error = setup_.model.depth_relative * (ray.distance + ray.radius);
   const double nearest = reached.nearest * view.along - error;
   if (nearest > covered_) return;
   candidates_.push_back({place, nearest});
@@ -149,7 +149,7 @@ void SphereTracer::meet(const View& view, std::uint32_t place) {
   const double distance = first_surface(ray);
   if (!(distance <= distance_) || distance == unreached) return;
   const auto id = [&](std::uint32_t other) {
-    return picture_.scene.particles->ids[picture_.tree.sphere(other).index];
+    return setup_.scene.particles->ids[setup_.tree.sphere(other).index];
   };
   if (distance < distance_ || id(place) < id(shown_)) {
     distance_ = distance;
@@ -162,14 +162,14 @@ bool SphereTracer::is_rival(const Candidate& candidate) const {
   // later.
   if (candidate.nearest > covered_) return false;
   if (distance_ == unreached) return true;
-  const SphereTree::Sphere& shown = picture_.tree.sphere(shown_);
-  const SphereTree::Sphere& other = picture_.tree.sphere(candidate.place);
+  const SphereTree::Sphere& shown = setup_.tree.sphere(shown_);
+  const SphereTree::Sphere& other = setup_.tree.sphere(candidate.place);
   return other.centre != shown.centre || other.radius != shown.radius;
 }
 
 std::array<double, 4> SphereTracer::shaded(std::uint32_t place, double half) const {
-  const scene::SphereShading& shading = picture_.scene.shading;
-  const std::array<double, 3> colour = picture_.colour(picture_.tree.sphere(place).index);
+  const scene::SphereShading& shading = setup_.scene.shading;
+  const std::array<double, 3> colour = setup_.colour(setup_.tree.sphere(place).index);
   const double light = shading.ambient + shading.diffuse * half;
   return {colour[0] * light, colour[1] * light, colour[2] * light, 1.0};
 }
@@ -187,7 +187,7 @@ void SphereTracer::bound_shown(const View& view, SpherePixel& pixel) const {
   const double sine = std::sqrt(std::max(1 - view.along * view.along, 0.0));
   const double turn =
       view.lateral.chord * std::min(sine + 0.5 * view.lateral.chord, 1.0) * reached.farthest;
-  pixel.depth_bound = change + turn + picture_.model.depth_relative * (ray.distance + ray.radius);
+  pixel.depth_bound = change + turn + setup_.model.depth_relative * (ray.distance + ray.radius);
   for (const double half : {reached.half_lo, std::min(reached.half_hi, ray.radius)}) {
     pixel.bound =
         std::max(pixel.bound, largest_difference(pixel.rgba, shaded(shown_, half / ray.radius)));
@@ -198,7 +198,7 @@ void SphereTracer::bound_all(const View& view, SpherePixel& pixel) const {
   pixel.depth_bound = unreached;
   if (covered_ == unreached) {
     std::array<double, 4> background{};
-    std::ranges::copy(picture_.scene.background, background.begin());
+    std::ranges::copy(setup_.scene.background, background.begin());
     pixel.bound = largest_difference(pixel.rgba, background);
   }
   for (const Candidate& candidate : candidates_) {

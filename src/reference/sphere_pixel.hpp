@@ -26,9 +26,9 @@ struct SpherePixel {
 };
 
 // Data that all pixels of an image share. The scene and the model must outlive this object.
-class SpherePicture {
+class SphereSetup {
  public:
-  SpherePicture(const scene::ParticleScene& scene, const SphereErrorModel& model);
+  SphereSetup(const scene::ParticleScene& scene, const SphereErrorModel& model);
 
   // Returns the largest distance between two unit directions that are `pixels` apart in the image,
   // if `along` is the cosine between one of them and the view axis.
@@ -66,7 +66,7 @@ class SpherePicture {
 // uncertainty.
 class SphereTracer {
  public:
-  explicit SphereTracer(const SpherePicture& picture) : picture_(picture) {}
+  explicit SphereTracer(const SphereSetup& setup) : setup_(setup) {}
   [[nodiscard]] SpherePixel operator()(int x, int y);
   // Returns the indices in the particle set of all spheres that some ray within the margin may hit,
   // including hidden spheres, sorted by the smallest Z at which a ray may hit them.
@@ -94,7 +94,7 @@ class SphereTracer {
   void bound_shown(const View& view, SpherePixel& pixel) const;
   void bound_all(const View& view, SpherePixel& pixel) const;
 
-  const SpherePicture& picture_;
+  const SphereSetup& setup_;
   std::vector<Candidate> candidates_;
   double covered_ = 0;       // smallest Z at which every ray within the margin has hit a sphere
   double distance_ = 0;      // distance of the visible surface along the ray

@@ -65,10 +65,10 @@ void store(const SpherePixel& pixel, std::size_t at, SphereTruth& truth) {
 SphereTruth render_spheres(const scene::ParticleScene& scene, const SphereErrorModel& model,
                            int threads) {
   check(scene);
-  const SpherePicture picture(scene, model);
+  const SphereSetup setup(scene, model);
   SphereTruth truth = blank(scene);
   for_each_row(scene.height, threads, [&]() -> RowWorker {
-    return [&, trace = SphereTracer(picture)](int y) mutable {
+    return [&, trace = SphereTracer(setup)](int y) mutable {
       for (int x = 0; x < scene.width; ++x) {
         const auto at = static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) +
                         static_cast<std::size_t>(x);

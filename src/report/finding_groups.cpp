@@ -78,7 +78,7 @@ bool is_told_by_cost(const Finding& finding, std::span<const Finding> findings) 
 
 using Places = std::set<std::pair<std::string_view, std::string_view>>;  // device, configuration
 
-Places wrong_pictures(std::span<const Finding> findings) {
+Places wrong_images(std::span<const Finding> findings) {
   Places wrong;
   for (const Finding& each : findings) {
     if (each.check != Check::image || each.verdict != Verdict::regression) continue;
@@ -155,7 +155,7 @@ class Grouping {
       if (finding.configuration.empty()) continue;
       for (const auto& [factor, level] : factors_of(finding)) levels_[place][factor].insert(level);
     }
-    const Places wrong = wrong_pictures(findings);
+    const Places wrong = wrong_images(findings);
     for (const Finding& finding : findings) {
       if (is_told_by_cost(finding, findings)) continue;
       const std::pair<std::string_view, std::string_view> place(finding.device,
@@ -284,7 +284,7 @@ class Grouping {
 
 // Returns whether `triptych render` reproduces the finding. This includes hangs, because `render`
 // has a time limit.
-bool is_told_by_a_picture(const Finding& finding) {
+bool is_reproduced_by_render(const Finding& finding) {
   return finding.check == Check::image || finding.check == Check::stress || finding.reason.limit();
 }
 
@@ -406,7 +406,7 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
   }
   // --limit does not apply, because counting instructions has its own time limit.
   if (finding.check == Check::cost) command.limit.reset();
-  if (!is_told_by_a_picture(finding)) {
+  if (!is_reproduced_by_render(finding)) {
     if (!is_open(finding) || !is_known(result)) return {};
     judge_again(finding, result, command);
   }

@@ -98,7 +98,7 @@ std::string embedded_sha256(std::string_view file) {
   return base64(std::as_bytes(std::span(hash)));
 }
 
-Html without_repeated_pictures(const Html& whole) {
+Html without_repeated_images(const Html& whole) {
   std::string_view page = whole.text();
   static constexpr std::string_view image = "<img ";
   static constexpr std::string_view source = "src=\"data:";

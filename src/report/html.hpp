@@ -61,7 +61,7 @@ class Html {
   friend Html markup(MarkupFormat<Args...> format, const Args&... args);
   friend Html embedded_markup(std::string_view file);
   friend Html data_uri(std::span<const std::byte> png);
-  friend Html without_repeated_pictures(const Html& page);
+  friend Html without_repeated_images(const Html& page);
 };
 
 // The only function that creates elements. The format string is a literal that contains markup;
@@ -105,7 +105,7 @@ using Rows = std::vector<TableRow>;
 // Returns the page with the bytes of each distinct image only once. A repeated image has the
 // attribute `data-same` instead of `src`: the index of its first occurrence among all `img`
 // elements.
-[[nodiscard]] Html without_repeated_pictures(const Html& page);
+[[nodiscard]] Html without_repeated_images(const Html& page);
 
 // Returns a table. The first row is its header. Columns of quantities get the CSS class "number",
 // which aligns them to the right.

@@ -15,12 +15,12 @@ namespace {
 
 // An ASCII-art image whose characters range from blank to dense. A character cell is about twice as
 // high as it is wide.
-class SmallPicture {
+class TextImage {
  public:
   // The image has at most `most_columns` columns and `most_rows` rows. For a volume, the caller
   // passes the numbers of voxels along x and y, so that every character cell contains at least one
   // voxel.
-  SmallPicture(double width, double height, std::size_t most_columns, std::size_t most_rows) {
+  TextImage(double width, double height, std::size_t most_columns, std::size_t most_rows) {
     constexpr double longest = 56;
     const double scale = longest / std::max({width, height, std::numeric_limits<double>::min()});
     columns_ = std::clamp(static_cast<std::size_t>(std::lround(width * scale)), std::size_t{1},
@@ -113,9 +113,9 @@ double percentile_of(const Histogram& histogram, const Volume& volume, double pe
   return volume.range_lo + histogram.step * static_cast<double>(step);
 }
 
-void append_picture(std::vector<std::string>& lines, const Volume& volume) {
+void append_text_image(std::vector<std::string>& lines, const Volume& volume) {
   const auto [nx, ny, nz] = volume.size;
-  SmallPicture picture(nx * volume.spacing[0], ny * volume.spacing[1], static_cast<std::size_t>(nx),
+  TextImage text_image(nx * volume.spacing[0], ny * volume.spacing[1], static_cast<std::size_t>(nx),
                        static_cast<std::size_t>(ny));
   const double range = volume.range_hi - volume.range_lo;
   if (!(range > 0)) return;
@@ -127,28 +127,28 @@ void append_picture(std::vector<std::string>& lines, const Volume& volume) {
         for (int i = 0; i < nx; ++i, ++index) {
           const auto value = static_cast<double>(load_scalar<Scalar>(volume.voxels.data(), index));
           if (!std::isfinite(value)) continue;
-          double& cell = picture.at((i + 0.5) / nx, (j + 0.5) / ny);
+          double& cell = text_image.at((i + 0.5) / nx, (j + 0.5) / ny);
           cell = std::max(cell, (value - volume.range_lo) / range);
         }
       }
     }
   });
   lines.emplace_back("preview of the maximum value along z (x points right, y points up):");
-  picture.append_to(lines);
+  text_image.append_to(lines);
 }
 
-void append_picture(std::vector<std::string>& lines, const ParticleSet& set, const Box& box) {
-  SmallPicture picture(box.hi.x - box.lo.x, box.hi.y - box.lo.y, 56, 28);
+void append_text_image(std::vector<std::string>& lines, const ParticleSet& set, const Box& box) {
+  TextImage text_image(box.hi.x - box.lo.x, box.hi.y - box.lo.y, 56, 28);
   for (const auto& sphere : set.spheres) {
     const auto share = [](double at, double lo, double hi) {
       return hi > lo ? (at - lo) / (hi - lo) : 0.5;
     };
-    picture.at(share(sphere[0], box.lo.x, box.hi.x), share(sphere[1], box.lo.y, box.hi.y)) += 1;
+    text_image.at(share(sphere[0], box.lo.x, box.hi.x), share(sphere[1], box.lo.y, box.hi.y)) += 1;
   }
   lines.emplace_back(
       "preview of the number of particle centres along z (x points right, y "
       "points up):");
-  picture.append_to(lines);
+  text_image.append_to(lines);
 }
 
 }  // namespace
@@ -181,7 +181,7 @@ std::vector<std::string> summary_of(const Volume& volume) {
     percentiles += fmt::format(" p{} {:.6g}", percent, percentile_of(histogram, volume, percent));
   }
   lines.push_back(percentiles);
-  append_picture(lines, volume);
+  append_text_image(lines, volume);
   add_notes(lines, facts);
   return lines;
 }
@@ -210,7 +210,7 @@ std::vector<std::string> summary_of(const ParticleSet& set) {
         set.spheres, {}, [](const std::array<float, 4>& sphere) { return sphere[3]; });
     lines.push_back(fmt::format("radii: {:.6g} to {:.6g}{}", least[3], most[3], unit));
   }
-  append_picture(lines, set, box);
+  append_text_image(lines, set, box);
   add_notes(lines, facts);
   return lines;
 }

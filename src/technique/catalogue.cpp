@@ -38,7 +38,7 @@ std::vector<Technique> parse(std::string_view text) {
          .fetches_by_index = entry.value("fetches_by_index", method_of(entry) != Method::sprites),
          .instanced = entry.value("instanced", false),
          .parts = entry.value("parts", false),
-         .picture = entry.at("picture"),
+         .draws_image = entry.at("draws_image"),
          .apis = entry.at("apis"),
          .summary = entry.at("summary")});
   }

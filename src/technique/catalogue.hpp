@@ -30,7 +30,7 @@ struct Technique {
   bool fetches_by_index = false;  // its shaders read all spheres from one storage buffer
   bool instanced = false;         // draws one instance per sphere
   bool parts = false;             // can draw a volume in parts if it does not fit into memory
-  bool picture = true;            // false for speed_of_light, which only adds up values
+  bool draws_image = true;        // false for speed_of_light, which only adds up values
   std::vector<std::string> apis;  // the APIs on which the technique exists
   std::string summary;
 };

@@ -119,13 +119,13 @@ void LiveDevice::serve() {
 }
 
 Drawn LiveDevice::drawn(const Wanted& wanted) {
-  Drawn answer{.wanted = wanted, .record = {}, .image = {}, .picture = {}};
+  Drawn answer{.wanted = wanted, .record = {}, .image = {}, .displayed = {}};
   std::vector<std::byte> exr;
   try {
     answer.record = measured(wanted, exr);
     if (!exr.empty()) {
       answer.image = core::decode_exr(exr, "the image of " + device_);
-      answer.picture = core::to_srgb(answer.image);
+      answer.displayed = core::to_srgb(answer.image);
     }
   } catch (const measure::Interrupted&) {
     throw;

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/image.hpp"
-#include "core/rgb_picture.hpp"
+#include "core/rgb_image.hpp"
 #include "measure/protocol/injected_fault.hpp"
 #include "measure/request/view_request.hpp"
 #include "measure/system/interrupt.hpp"
@@ -38,7 +38,7 @@ struct Drawn {
   Wanted wanted;
   record::Record record;
   core::Image image;         // empty unless the frame was measured
-  core::RgbPicture picture;  // the image as displayed
+  core::RgbImage displayed;  // the image as displayed
 
   [[nodiscard]] bool has_image() const { return image.width > 0; }
 };

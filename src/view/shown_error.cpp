@@ -71,7 +71,7 @@ ShownError shown_error(const core::Image& image, const core::Image& expected,
   error.sentence = sentence_of(comparison, image, expected, other);
   if (comparison.size_mismatch) return error;
   const report::ShareOfBound shares = report::share_of_bound(image, expected, bound);
-  error.picture = core::to_srgb(shares.image);
+  error.displayed = core::to_srgb(shares.image);
   for (const auto& mark : shares.marks) error.rings.push_back({mark.x, mark.y});
   error.ring_radius = shares.ring;
   return error;
@@ -100,7 +100,7 @@ core::Image bound_between(const accuracy::TruthPair& a, const accuracy::TruthPai
   return bound;
 }
 
-core::RgbPicture scale_of_bounds(int width) {
+core::RgbImage scale_of_bounds(int width) {
   constexpr float most = 1.1F;
   core::Image shares(width, 1);
   core::Image zero(width, 1);

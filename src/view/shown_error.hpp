@@ -7,12 +7,12 @@
 
 #include "accuracy/truth_pair.hpp"
 #include "core/image.hpp"
-#include "core/rgb_picture.hpp"
+#include "core/rgb_image.hpp"
 
 namespace triptych::view {
 
 struct ShownError {
-  core::RgbPicture picture;  // errors relative to the bound, colour-coded; may be empty
+  core::RgbImage displayed;  // errors relative to the bound, colour-coded; may be empty
   struct Ring {
     int x;
     int y;
@@ -40,6 +40,6 @@ struct ShownError {
 
 // Returns an image of the colour scale, from no error on the left to slightly more than the bound
 // on the right.
-[[nodiscard]] core::RgbPicture scale_of_bounds(int width);
+[[nodiscard]] core::RgbImage scale_of_bounds(int width);
 
 }  // namespace triptych::view

@@ -29,7 +29,7 @@ const std::vector<Factor>& particle_factors() {
            "a particle file (" + scene::particle_endings() +
                ", plain or compressed; FILE@K selects frame K, counting from 0), "
                "generate:NAME:COUNT, or stress:CASE:VARIANT (a stress scene)"),
-      choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_picture,
+      choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_image,
              "how each particle's colour is stored: as four bytes (rgba8), as four floats "
              "(rgba32), or as an intensity that is looked up in the transfer function"),
       text("transfer_function", "haze",
@@ -51,14 +51,14 @@ const std::vector<Factor>& particle_factors() {
       choice("structure", {"static", "refit", "rebuild"}, "static", Decides::how_it_is_made,
              "how each frame updates the hierarchy that rays traverse: not at all (static), by "
              "refitting it to the moved spheres, or by rebuilding it"),
-      number("radius_scale", 1e-6, 1e6, "1", Decides::the_picture,
+      number("radius_scale", 1e-6, 1e6, "1", Decides::the_image,
              "the factor by which every radius is multiplied"),
       text(
           "camera", "orbit_y:1/8",
           "PATH:i/n (such as orbit_y:1/8 or path_z:3/36), random:SEED, or "
           "view:AZIMUTH/ELEVATION/DISTANCE (angles in degrees and distance in orbit radii, such as "
           "view:45/20/0.8); own: the stress case's camera"),
-      number("fov", 0.0005, 179, "60", Decides::the_picture,
+      number("fov", 0.0005, 179, "60", Decides::the_image,
              "the vertical field of view in degrees; own: the stress case's field of view",
              {std::string(own_level)}),
       text("viewport", "256",

@@ -62,7 +62,7 @@ std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene, d
   // error of 2⁻²⁴. In images of less than 16,384 pixels per side, the total error is below 1/64
   // pixel.
   constexpr double rounding = 1.0 / 64;
-  const double picture = static_cast<double>(scene.width) * scene.height;
+  const double image_pixels = static_cast<double>(scene.width) * scene.height;
   double quads = 0;
   double corners = 0;
   for_each_silhouette(scene, [&](const glm::dvec2& size) {
@@ -84,7 +84,7 @@ std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene, d
     }
     open["vertices"] = 4 * all;
     for (const char* counter : {"fragments", "fragments_discarded", "fragments_kept"}) {
-      open[counter] = all * picture;
+      open[counter] = all * image_pixels;
     }
   }
   return open;

@@ -141,7 +141,7 @@ std::vector<record::Expectation> stress_expectations(const StressData& data) {
     const StressData first{.of = data.of, .variant = data.of->variants.front()};
     return record::Expectation{
         std::move(what),
-        record::SamePicture{.changed = {{"data", name_of(first)}}, .depth_scale = depth_scale}};
+        record::SameImage{.changed = {{"data", name_of(first)}}, .depth_scale = depth_scale}};
   };
   if (name == "scale" && data.variant != "unit") {
     return {as_first("the same image as with unit radii, and depths that are scaled like the radii",

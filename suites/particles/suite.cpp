@@ -226,16 +226,16 @@ measure::Work ParticleSuite::calibration(technique::Work kind) {
 
 accuracy::TruthPair ParticleSuite::truth(const Configuration& configuration,
                                          const std::map<std::string, double>& precision) {
-  const scene::ParticleScene pictured = scene(configuration);
+  const scene::ParticleScene drawn = scene(configuration);
   const reference::SphereTruth truth =
-      reference::render_spheres(pictured, model_of(pictured, configuration, precision));
+      reference::render_spheres(drawn, model_of(drawn, configuration, precision));
   return {.truth = truth.image(), .bound = truth.bound_image()};
 }
 
 std::string ParticleSuite::truth_key(const Configuration& configuration,
                                      const std::map<std::string, double>& precision) {
-  const scene::ParticleScene pictured = scene(configuration);
-  const reference::SphereErrorModel model = model_of(pictured, configuration, precision);
+  const scene::ParticleScene drawn = scene(configuration);
+  const reference::SphereErrorModel model = model_of(drawn, configuration, precision);
   const std::string model_hash = core::HashBuilder("sphere error model")
                                      .add(model.margin_px)
                                      .add(model.lateral_px)
@@ -244,7 +244,7 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
                                      .add(model.colour_relative)
                                      .hash();
   return fmt::format("spheres {} data {} model {}{}", reference::spheres_version,
-                     pictured.particles->hash, model_hash, beside_factors(configuration));
+                     drawn.particles->hash, model_hash, beside_factors(configuration));
 }
 
 // Counters may differ between devices for two reasons. A device with a limited point size draws
@@ -277,19 +277,19 @@ std::string ParticleSuite::beside_factors(const Configuration& configuration) {
 }
 
 nlohmann::json ParticleSuite::describe(const Configuration& configuration) {
-  const scene::ParticleScene pictured = scene(configuration);
-  const scene::ParticleSet& set = *pictured.particles;
-  return {{"viewport", {pictured.width, pictured.height}},
-          {"camera", measure::camera_json(pictured.camera)},
+  const scene::ParticleScene drawn = scene(configuration);
+  const scene::ParticleSet& set = *drawn.particles;
+  return {{"viewport", {drawn.width, drawn.height}},
+          {"camera", measure::camera_json(drawn.camera)},
           {"particles",
            {{"count", set.count()},
             {"dropped", set.dropped},
-            {"radius_scale", pictured.radius_scale},
+            {"radius_scale", drawn.radius_scale},
             {"shading",
              {{"model", "headlight"},
-              {"ambient", pictured.shading.ambient},
-              {"diffuse", pictured.shading.diffuse}}},
-            {"background", pictured.background}}}};
+              {"ambient", drawn.shading.ambient},
+              {"diffuse", drawn.shading.diffuse}}},
+            {"background", drawn.background}}}};
 }
 
 std::string ParticleSuite::limit_key(const Configuration& configuration) {
@@ -318,21 +318,21 @@ std::vector<record::Expectation> ParticleSuite::expectations(const Configuration
 std::vector<std::uint32_t> ParticleSuite::particles_near(
     const Configuration& configuration, const std::map<std::string, double>& precision, int x,
     int y) {
-  const scene::ParticleScene pictured = scene(configuration);
-  const reference::SphereErrorModel model = model_of(pictured, configuration, precision);
-  const reference::SpherePicture picture(pictured, model);
-  return reference::SphereTracer(picture).spheres_near(x, y);
+  const scene::ParticleScene drawn = scene(configuration);
+  const reference::SphereErrorModel model = model_of(drawn, configuration, precision);
+  const reference::SphereSetup setup(drawn, model);
+  return reference::SphereTracer(setup).spheres_near(x, y);
 }
 
 accuracy::ExpectedSurface ParticleSuite::expected_surface(
     const Configuration& configuration, const std::map<std::string, double>& precision,
     std::span<const std::uint32_t> particles, int x, int y) {
-  scene::ParticleScene pictured = scene(configuration);
-  const reference::SphereErrorModel model = model_of(pictured, configuration, precision);
-  pictured.particles = std::make_shared<const scene::ParticleSet>(
-      scene::particle_subset(*pictured.particles, particles));
-  const reference::SpherePicture picture(pictured, model);
-  const reference::SpherePixel pixel = reference::SphereTracer(picture)(x, y);
+  scene::ParticleScene drawn = scene(configuration);
+  const reference::SphereErrorModel model = model_of(drawn, configuration, precision);
+  drawn.particles = std::make_shared<const scene::ParticleSet>(
+      scene::particle_subset(*drawn.particles, particles));
+  const reference::SphereSetup setup(drawn, model);
+  const reference::SpherePixel pixel = reference::SphereTracer(setup)(x, y);
   return {.id = pixel.id,
           .depth = pixel.depth,
           .depth_bound = pixel.depth_bound,

@@ -66,7 +66,7 @@ scene::TransferFunction analytic_transfer_function(const AnalyticData& data) {
   return scene_of(data).scene.transfer_function;
 }
 
-core::Image analytic_picture(const AnalyticData& data, const scene::VolumeScene& scene) {
+core::Image analytic_image(const AnalyticData& data, const scene::VolumeScene& scene) {
   reference::AnalyticOptions options;
   options.size = {data.size, data.size, data.size};
   options.width = scene.width;

@@ -31,7 +31,6 @@ inline constexpr std::string_view own_transfer_function = "own";
 
 // Returns the exact image of the problem, seen from the scene's camera, in its viewport and over
 // its background.
-[[nodiscard]] core::Image analytic_picture(const AnalyticData& data,
-                                           const scene::VolumeScene& scene);
+[[nodiscard]] core::Image analytic_image(const AnalyticData& data, const scene::VolumeScene& scene);
 
 }  // namespace triptych::volume_suite

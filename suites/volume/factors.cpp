@@ -51,7 +51,7 @@ const std::vector<Factor>& volume_factors() {
                   "the range of values that the transfer function spans: full, or LOW..HIGH in the "
                   "data's units or percentiles (p1..p99, 0..p99.5); values outside are clamped")),
       silent(choice(
-          "mapping", {"linear", "log"}, "linear", Decides::the_picture,
+          "mapping", {"linear", "log"}, "linear", Decides::the_image,
           "how values in the window are mapped to the transfer function: linearly, or by their "
           "logarithm (log), with values below the smallest positive value mapped to 0")),
       silent(text("component", "0",
@@ -62,19 +62,19 @@ const std::vector<Factor>& volume_factors() {
            "the transfer function, which maps values to colours and opacities: the preset haze or "
            "surfaces, or a file with 256 RGBA entries; own: the transfer function of the analytic "
            "problem or stress case (surfaces for all other data)"),
-      number("step", 1.0 / 64, 4096, "1", Decides::the_picture,
+      number("step", 1.0 / 64, 4096, "1", Decides::the_image,
              "the distance between samples in units of the smallest voxel spacing; own: the stress "
              "case's step (1 for all other data)",
              {std::string(own_level)}),
       choice(
           "quadrature", {"midpoint", "preintegrated", "cells", std::string(own_level)}, "midpoint",
-          Decides::the_picture,
+          Decides::the_image,
           "the rule for the ray integral; midpoint: one sample for each step; preintegrated: the "
           "transfer function is integrated between the values at both ends of a step; cells: a "
           "fourth-order rule, for which rays are cut at the planes through voxel centres and at "
           "the kinks of the transfer function, and are divided into ⌈1/step⌉ equal parts between "
           "two such planes; own: the stress case's rule (midpoint for all other data)"),
-      choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_picture,
+      choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_image,
              "none, or gradient: shading by a headlight, with gradients computed by central "
              "differences; own: the stress case's shading (none for all other data)"),
       choice("skip", {"none", "bricks", "distance"},

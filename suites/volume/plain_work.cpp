@@ -17,7 +17,7 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   measure::PlainWork plain{.levels = configuration};
   plain.levels.erase("ert");
   const technique::Technique& technique = technique::technique(configuration.at("technique"));
-  if (technique.picture) {
+  if (technique.draws_image) {
     plain.ends_below = work.options.ert;
   } else if (work.options.ert > 0) {
     plain.why["ert"] = technique.id + " never ends rays early";

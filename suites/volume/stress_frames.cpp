@@ -31,9 +31,9 @@ StressScene stress_shape(std::string_view variant) {
   if (variant != "17x13") {
     scene.expectations = {
         {"the matching part of the image with 17x13 pixels, within the sum of both error bounds",
-         record::SamePicture{.changed = {{"data", "stress:shape:17x13"}},
-                             .at = {(columns - scene.width) / 2, (rows - scene.height) / 2},
-                             .to_the_bit = false}}};
+         record::SameImage{.changed = {{"data", "stress:shape:17x13"}},
+                           .at = {(columns - scene.width) / 2, (rows - scene.height) / 2},
+                           .to_the_bit = false}}};
   }
   return scene;
 }

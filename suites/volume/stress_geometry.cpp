@@ -107,9 +107,9 @@ StressScene stress_octant(std::string_view variant) {
              ? "the horizontally mirrored image of the scene stress:octant:ppp, within the sum of "
                "both error bounds"
              : "the image of the scene stress:octant:ppp, within the sum of both error bounds",
-         record::SamePicture{.changed = {{"data", "stress:octant:ppp"}},
-                             .mirrored_x = sign.x * sign.y * sign.z < 0,
-                             .to_the_bit = false}}};
+         record::SameImage{.changed = {{"data", "stress:octant:ppp"}},
+                           .mirrored_x = sign.x * sign.y * sign.z < 0,
+                           .to_the_bit = false}}};
   }
   return scene;
 }

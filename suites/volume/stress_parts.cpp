@@ -100,11 +100,11 @@ StressScene lopsided_scene() {
 }
 
 record::Expectation same_bits_as(const std::string& data, std::string what) {
-  return {std::move(what), record::SamePicture{.changed = {{"data", data}}}};
+  return {std::move(what), record::SameImage{.changed = {{"data", data}}}};
 }
 
 record::Expectation same_within_bounds_as(const std::string& data, std::string what) {
-  return {std::move(what), record::SamePicture{.changed = {{"data", data}}, .to_the_bit = false}};
+  return {std::move(what), record::SameImage{.changed = {{"data", data}}, .to_the_bit = false}};
 }
 
 }  // namespace triptych::volume_suite

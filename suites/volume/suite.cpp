@@ -219,45 +219,45 @@ measure::Work VolumeSuite::calibration(technique::Work kind) {
 VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
                                         const std::map<std::string, double>& precision) {
   const LoadedData& loaded = load_as_it_is(configuration);
-  scene::VolumeScene pictured = scene(configuration, loaded);
+  scene::VolumeScene drawn = scene(configuration, loaded);
   const auto probed = precision.find("filter_weight_error");
   const technique::Precision computed = technique::precision(configuration.at("precision"));
   const StorageError stored =
       storage_error(configuration.at("voxel"), loaded.native, loaded.fits_halves, computed);
   const reference::ErrorModel model =
-      error_model(pictured, {.ert = levels_of(configuration, loaded.stress).ert(),
-                             .adapt = levels_of(configuration, loaded.stress).adapt(),
-                             .filter_weight_error = probed == precision.end() ? 0 : probed->second,
-                             .storage_step = stored.step,
-                             .voxel_rounding = stored.rounding,
-                             .precision = computed});
-  return {std::move(pictured), model};
+      error_model(drawn, {.ert = levels_of(configuration, loaded.stress).ert(),
+                          .adapt = levels_of(configuration, loaded.stress).adapt(),
+                          .filter_weight_error = probed == precision.end() ? 0 : probed->second,
+                          .storage_step = stored.step,
+                          .voxel_rounding = stored.rounding,
+                          .precision = computed});
+  return {std::move(drawn), model};
 }
 
 accuracy::TruthPair VolumeSuite::truth(const Configuration& configuration,
                                        const std::map<std::string, double>& precision) {
-  const auto [pictured, model] = judged(configuration, precision);
-  const reference::Truth truth = reference::render_volume(pictured, model);
+  const auto [drawn, model] = judged(configuration, precision);
+  const reference::Truth truth = reference::render_volume(drawn, model);
   return {.truth = truth.image(), .bound = truth.bound_image()};
 }
 
 std::map<std::string, double> VolumeSuite::open_counts(
     const Configuration& configuration, const std::map<std::string, double>& precision) {
-  const auto [pictured, model] = judged(configuration, precision);
+  const auto [drawn, model] = judged(configuration, precision);
   reference::BrickPlanes planes;
   if (const technique::Skip skip = technique::skip(configuration.at("skip"));
       skip != technique::Skip::none) {
-    const technique::BrickLayout layout = technique::brick_layout(pictured, skip, model.adapt);
+    const technique::BrickLayout layout = technique::brick_layout(drawn, skip, model.adapt);
     planes = {.edge = layout.edge, .origin = layout.of_cells ? 0.5 : 0.0};
   }
-  return reference::open_counts(pictured, model, planes);
+  return reference::open_counts(drawn, model, planes);
 }
 
 accuracy::ExpectedRay VolumeSuite::expected_ray(const Configuration& configuration,
                                                 const std::map<std::string, double>& precision,
                                                 int x, int y) {
-  const auto [pictured, model] = judged(configuration, precision);
-  return pixel_history(pictured, model, x, y);
+  const auto [drawn, model] = judged(configuration, precision);
+  return pixel_history(drawn, model, x, y);
 }
 
 // Returns the part of an image's key that contains the hash of the transfer function's file. It is
@@ -271,7 +271,7 @@ std::string table_text(const Configuration& configuration,
 
 std::string VolumeSuite::truth_key(const Configuration& configuration,
                                    const std::map<std::string, double>& precision) {
-  const auto [pictured, model] = judged(configuration, precision);
+  const auto [drawn, model] = judged(configuration, precision);
   const std::string model_hash = core::HashBuilder("volume error model")
                                      .add(model.position_error_voxels)
                                      .add(model.value_error)
@@ -285,13 +285,13 @@ std::string VolumeSuite::truth_key(const Configuration& configuration,
                                      .add(model.output_error)
                                      .hash();
   std::string key = fmt::format("reference {} data {} model {}", reference::volume_version,
-                                pictured.grid->hash, model_hash);
+                                drawn.grid->hash, model_hash);
   // The properties of a stress case's frame (such as its own camera) are added to the key, because
   // they are not levels of factors.
   if (stress_data(configuration.at("data"))) {
-    key += " frame " + core::json_hash(describe_frame(pictured, model.ert, model.adapt));
+    key += " frame " + core::json_hash(describe_frame(drawn, model.ert, model.adapt));
   }
-  return key + table_text(configuration, pictured.transfer_function);
+  return key + table_text(configuration, drawn.transfer_function);
 }
 
 std::string VolumeSuite::data_hash(const Configuration& configuration) {
@@ -328,7 +328,7 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
   // If samples are merged (factor `adapt`), the images are close but not bit-identical.
   if (levels_of(configuration, stress).adapt() > 0) return result;
   result.push_back({"an image that is bit-identical to the image without skipping",
-                    record::SamePicture{.changed = {{"skip", "none"}}}});
+                    record::SameImage{.changed = {{"skip", "none"}}}});
   return result;
 }
 
@@ -362,9 +362,9 @@ std::optional<core::Image> VolumeSuite::closed_form(const Configuration& configu
   const bool mapped =
       configuration.at("window") != "full" || configuration.at("mapping") != "linear";
   if (!analytic || !own || mapped) return std::nullopt;
-  const scene::VolumeScene pictured = scene(configuration, load_as_it_is(configuration));
-  if (pictured.shading.enabled != reference::is_shaded(analytic->problem)) return std::nullopt;
-  return analytic_picture(*analytic, pictured);
+  const scene::VolumeScene drawn = scene(configuration, load_as_it_is(configuration));
+  if (drawn.shading.enabled != reference::is_shaded(analytic->problem)) return std::nullopt;
+  return analytic_image(*analytic, drawn);
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ endfunction()
 set(catalogue ${copy}/src/technique/catalogue.json)
 file(READ ${catalogue} text)
 string(REPLACE "\"techniques\": [" "\"techniques\": [
-    {\"id\": \"again\", \"suite\": \"volume\", \"work\": \"compute\", \"picture\": true, \"needs\": \"nothing\",
+    {\"id\": \"again\", \"suite\": \"volume\", \"work\": \"compute\", \"draws_image\": true, \"needs\": \"nothing\",
      \"apis\": [\"opencl\", \"gl\"], \"summary\": \"The raycaster once more\"}," text "${text}")
 file(WRITE ${catalogue} "${text}")
 expect_refused("write backends/gl/again.cpp")

@@ -115,9 +115,9 @@ TEST(Matrix, SharedCodeComparesNoTechniqueIds) {
   EXPECT_EQ(compared_ids("if (work.technique == \"point\" && at(\"technique\") != \"raycast\" && "
                          "technique.id == \"mesh\" && api == \"gl\")"),
             (std::set<std::string>{"mesh", "point", "raycast"}));
-  // Records contain only the name of a technique, so has_picture.hpp may compare ids.
-  // has_picture_test checks that it agrees with the catalogue.
-  static const std::set<std::string> tested_against_the_catalogue{"has_picture.hpp"};
+  // Records contain only the name of a technique, so has_image.hpp may compare ids.
+  // has_image_test checks that it agrees with the catalogue.
+  static const std::set<std::string> tested_against_the_catalogue{"has_image.hpp"};
   for (const std::string folder : {"src", "backends", "suites"}) {
     for (const auto& file : files_below(folder, {".hpp", ".cpp"})) {
       if (tested_against_the_catalogue.contains(file.filename().string())) continue;

@@ -130,7 +130,7 @@ class Page:
         self.call("Input.dispatchKeyEvent", type="keyDown", text=text, **common)
         self.call("Input.dispatchKeyEvent", type="keyUp", **common)
 
-    def picture(self, clip=None, whole=False):
+    def screenshot(self, clip=None, whole=False):
         more = {"captureBeyondViewport": True} if whole else {}
         if clip:
             more["clip"] = dict(clip, scale=1)

@@ -65,7 +65,7 @@ const looks = (() => {
       }).map(link => `${called(link)} leads nowhere`);
     },
     alternatives() {
-      return all('img').filter(image => !image.closest('dialog') && !image.alt).map(() => 'a picture without alt');
+      return all('img').filter(image => !image.closest('dialog') && !image.alt).map(() => 'an image without alt');
     },
     brokenPictures() {
       return all('img[alt]').filter(image => seen(image) && !image.naturalWidth)

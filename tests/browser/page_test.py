@@ -108,7 +108,7 @@ def keep(page, name):
     folder = os.environ.get("TRIPTYCH_PICTURES")
     if folder:
         with open(os.path.join(folder, name + ".png"), "wb") as file:
-            file.write(page.picture())
+            file.write(page.screenshot())
 
 
 FINDINGS = "[...document.querySelectorAll('article[data-kind=finding]')]"
@@ -119,7 +119,7 @@ class Verdict(PageTest):
     def test_the_first_screen_tells_verdict_findings_and_the_first_failing_picture(self):
         page = self.opened("fail")
         for what in ("header h1", "header .causes li:last-child", "article[data-kind=finding] h3",
-                     "[data-kind=picture] img[alt^='the difference']", "[data-kind=picture] b.regression"):
+                     "[data-kind=image] img[alt^='the difference']", "[data-kind=image] b.regression"):
             self.assertTrue(page.value(f"{INSIDE}(document.querySelector(\"{what}\").getBoundingClientRect())"), what)
 
     def test_every_fault_is_found(self):
@@ -146,12 +146,12 @@ class Verdict(PageTest):
     def test_pictures_and_findings_link_to_each_other(self):
         page = self.opened("fail")
         pairs = page.value(f"{FINDINGS}.map(each => [each.id, each.querySelector('a:not([href=\"#verdict\"])')?.hash])")
-        for finding, picture in [pair for pair in pairs if pair[1]]:
-            back = page.value(f"document.querySelector('{picture}').closest('section').querySelector('a[href^=\"#cause\"]').hash")
+        for finding, image in [pair for pair in pairs if pair[1]]:
+            back = page.value(f"document.querySelector('{image}').closest('section').querySelector('a[href^=\"#cause\"]').hash")
             self.assertIn(back[1:], [each for each, _ in pairs])
-            page.value(f"document.querySelector('#{finding} a[href=\"{picture}\"]').click()")
+            page.value(f"document.querySelector('#{finding} a[href=\"{image}\"]').click()")
             page.until(f"(r => r.height > 0 && r.top < innerHeight && r.bottom > 0)"
-                       f"(document.querySelector('{picture}').closest('section').getBoundingClientRect())")
+                       f"(document.querySelector('{image}').closest('section').getBoundingClientRect())")
 
     def test_what_drew_nothing_has_a_tile_that_says_so(self):
         page = self.opened("fail")
@@ -250,7 +250,7 @@ class Comparison(PageTest):
         }})()""")
         x, y, width, height = page.value("(r => [r.x, r.y, r.width, r.height])"
                                          "(document.querySelector('.view').getBoundingClientRect())")
-        return page.picture({"x": round(x) + 4, "y": round(y), "width": round(width) - 8, "height": round(height)})
+        return page.screenshot({"x": round(x) + 4, "y": round(y), "width": round(width) - 8, "height": round(height)})
 
     def test_the_slider_goes_from_one_picture_to_the_other(self):
         for size in (WIDE, NARROW):

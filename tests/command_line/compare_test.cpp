@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -18,7 +18,7 @@ class Compare : public testing::Test {
   [[nodiscard]] std::string script(double speed, int seed, const std::string& keys = "") const {
     return fmt::format(
         R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6{}}})",
-        picture.string(), speed, seed, keys);
+        image_file.string(), speed, seed, keys);
   }
   [[nodiscard]] std::string b_as(double speed, const std::string& keys = noise) const {
     return "null:scripted,TRIPTYCH_NULL_SCRIPT=" + script(speed, 2, keys);
@@ -36,7 +36,7 @@ class Compare : public testing::Test {
       "--set technique=raycast --set data=generate:gaussian_blob:16 "
       "--set transfer_function=haze --set viewport=16";
   Program program;
-  std::filesystem::path picture = right_picture(program);
+  std::filesystem::path image_file = correct_image(program);
 };
 
 void expect_verdict(const Result& result, int code, std::string_view says) {

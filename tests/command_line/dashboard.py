@@ -13,7 +13,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CHECK = """cat <<'END'
 <CTestMeasurement type="numeric/double" name="pixels_over">16</CTestMeasurement>
-<CTestMeasurementFile type="image/png" name="DifferenceImage">{picture}</CTestMeasurementFile>
+<CTestMeasurementFile type="image/png" name="DifferenceImage">{image}</CTestMeasurementFile>
 END
 exit {code}
 """
@@ -44,9 +44,9 @@ class Dashboard(unittest.TestCase):
         self.url = f"http://127.0.0.1:{server.server_address[1]}/submit.php?project=Triptych"
 
     def submit(self, code=0, label="image", **environment):
-        picture = pathlib.Path(self.folder, "difference.png")
-        picture.write_bytes(b"a picture")
-        pathlib.Path(self.folder, "check.sh").write_text(CHECK.format(picture=picture, code=code), encoding="utf-8")
+        image = pathlib.Path(self.folder, "difference.png")
+        image.write_bytes(b"an image")
+        pathlib.Path(self.folder, "check.sh").write_text(CHECK.format(image=image, code=code), encoding="utf-8")
         pathlib.Path(self.folder, "CTestTestfile.cmake").write_text(
             f"add_test(volume.quick.image.x sh {self.folder}/check.sh)\n"
             "set_tests_properties(volume.quick.image.x PROPERTIES LABELS image)\n", encoding="utf-8")

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -16,7 +16,7 @@ class Diff : public testing::Test {
   void measure(const std::string& store, const std::string& keys = "",
                const std::string& plan = "volume/quick") const {
     const std::string script =
-        fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": 1e5{}}})", picture.string(), keys);
+        fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": 1e5{}}})", image_file.string(), keys);
     const Result result = program.run(
         fmt::format("run {} --untimed --set skip=none,bricks --store {} {}", plan, store, tiny),
         script);
@@ -27,7 +27,7 @@ class Diff : public testing::Test {
   }
 
   Program program;
-  std::filesystem::path picture = right_picture(program);
+  std::filesystem::path image_file = correct_image(program);
 };
 
 TEST_F(Diff, TheSameDriverShowsNoDifference) {
@@ -53,7 +53,7 @@ TEST_F(Diff, NewAndFixedFailuresAreReported) {
 
 TEST_F(Diff, InjectedFaultsAreNotAttributedToADriver) {
   measure("old.sqlite");
-  const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}}})", picture.string());
+  const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}}})", image_file.string());
   const std::string run = std::string("run volume/quick --untimed --store new.sqlite ") + tiny +
                           " --set skip=none,bricks --inject 'crash@*skip=bricks*'";
   static_cast<void>(program.run(run, script));

@@ -15,8 +15,8 @@
 #include <sstream>
 #include <vector>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -102,7 +102,7 @@ class Examples : public testing::TestWithParam<Job (*)()> {
  protected:
   void SetUp() override {
     const std::string images =
-        fmt::format(R"("images": {{"*": "{}"}})", right_picture(program).string());
+        fmt::format(R"("images": {{"*": "{}"}})", correct_image(program).string());
     right_ = fmt::format("{{{}}}", images);
     right_with_more_work_ = fmt::format(R"({{{}, "extra_samples": 5}})", images);
     fs::create_directory(program.folder() / "bin");

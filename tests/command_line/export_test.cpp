@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -54,7 +54,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 // respect to its reference image, which uses the same step size. With respect to the limit image,
 // to which images converge for small steps, it has an error that decreases with the step size.
 TEST_F(Export, ContainsEveryErrorOfEveryImage) {
-  const std::string right = R"({"images": {"*": ")" + right_picture(program).string() + R"("}})";
+  const std::string right = R"({"images": {"*": ")" + correct_image(program).string() + R"("}})";
   ASSERT_EQ(program
                 .run(std::string("run volume/quick --store e.sqlite ") + tiny +
                          " --set quadrature=midpoint",

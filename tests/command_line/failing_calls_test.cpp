@@ -14,10 +14,10 @@
 #include <iterator>
 #include <sstream>
 
+#include "correct_image.hpp"
 #include "program.hpp"
 #include "record/merge/merge.hpp"
 #include "record/store.hpp"
-#include "right_picture.hpp"
 #include "tree.hpp"
 
 namespace triptych::command_line {
@@ -38,7 +38,7 @@ class FailingCalls : public testing::Test {
       "data=generate:gaussian_blob:16 --set transfer_function=haze --set viewport=16";
 
   [[nodiscard]] std::string script(int base_us = 100) const {
-    return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}}})", picture.string(),
+    return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}}})", image_file.string(),
                        1000 * base_us);
   }
 
@@ -75,7 +75,7 @@ class FailingCalls : public testing::Test {
   }
 
   Program program;
-  fs::path picture = right_picture(program);
+  fs::path image_file = correct_image(program);
 };
 
 TEST_F(FailingCalls, ARunIsCompleteOrReportsThatItIsNot) {

@@ -5,17 +5,17 @@
 
 #include <regex>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
 
 // `speed` is a factor on all times of the device.
-std::string script(const std::filesystem::path& picture, double speed, int seed) {
+std::string script(const std::filesystem::path& image_file, double speed, int seed) {
   return fmt::format(
       R"({{"images": {{"*": "{}"}}, "devices": [{}], "seed": {}, "base_ns": 5e6, "noise": 0.003}})",
-      picture.string(), speed, seed);
+      image_file.string(), speed, seed);
 }
 
 std::string measure_into(const std::string& store) {
@@ -26,10 +26,10 @@ std::string judge_from(const std::string& store) {
   return fmt::format("gate volume/quick --store {} --baselines baselines {}", store, tiny);
 }
 
-void accept_runs(const Program& program, const std::filesystem::path& picture, int count) {
+void accept_runs(const Program& program, const std::filesystem::path& image_file, int count) {
   for (int i = 0; i < count; ++i) {
     const std::string store = fmt::format("history{}.sqlite", i);
-    ASSERT_EQ(program.run(measure_into(store), script(picture, 1, i)).code, 0);
+    ASSERT_EQ(program.run(measure_into(store), script(image_file, 1, i)).code, 0);
     const Result accepted = program.run(fmt::format(
         "accept volume/quick --reason history --store {} --baselines baselines", store));
     ASSERT_EQ(accepted.code, 0) << accepted.output;
@@ -38,9 +38,9 @@ void accept_runs(const Program& program, const std::filesystem::path& picture, i
 
 TEST(Gate, PassesIfNothingChanged) {
   const Program program;
-  const auto picture = right_picture(program);
-  accept_runs(program, picture, 1);
-  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(picture, 1, 99)).code, 0);
+  const auto image_file = correct_image(program);
+  accept_runs(program, image_file, 1);
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(image_file, 1, 99)).code, 0);
   const Result judged = program.run(judge_from("s.sqlite") + " --junit j.xml --markdown m.md");
   EXPECT_EQ(judged.code, 0) << judged.output;
   EXPECT_TRUE(std::filesystem::exists(program.folder() / "j.xml"));
@@ -50,7 +50,7 @@ TEST(Gate, PassesIfNothingChanged) {
 
 TEST(Gate, CannotJudgeWithoutBaselines) {
   const Program program;
-  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(correct_image(program), 1, 1)).code, 0);
   const Result judged = program.run(judge_from("s.sqlite"));
   EXPECT_EQ(judged.code, 2) << judged.output;
   const std::string words = judged.output.substr(judged.output.find("triptych accept"));
@@ -113,9 +113,9 @@ TEST(Gate, AnEditedTransferFunctionInvalidatesTheReferenceImage) {
                 "transfer_function: [a.rgba]\nviewport: [16]\n");
   for (const char opacity : {'\x10', '\x20'}) {
     program.write("a.rgba", std::string(1024, opacity));
-    const std::filesystem::path picture = right_picture(program, "a.rgba");
+    const std::filesystem::path image_file = correct_image(program, "a.rgba");
     const Result measured =
-        program.run("run plan --device null:scripted --store s.sqlite", script(picture, 1, 1));
+        program.run("run plan --device null:scripted --store s.sqlite", script(image_file, 1, 1));
     ASSERT_EQ(measured.code, 0) << measured.output;
     const Result judged = program.run("gate plan --check image --store s.sqlite --baselines none");
     EXPECT_EQ(judged.code, 2) << judged.output;  // no baselines
@@ -124,7 +124,7 @@ TEST(Gate, AnEditedTransferFunctionInvalidatesTheReferenceImage) {
 
 TEST(Gate, AWrongImageIsARegression) {
   const Program program;
-  accept_runs(program, right_picture(program), 1);
+  accept_runs(program, correct_image(program), 1);
   // The null device draws its own pattern, which is wrong.
   ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);
   EXPECT_EQ(program.run(judge_from("s.sqlite")).code, 1);
@@ -133,7 +133,7 @@ TEST(Gate, AWrongImageIsARegression) {
 // A check that was not requested must appear neither on the page nor on the screen.
 TEST(Gate, ThePageAgreesWithTheScreen) {
   const Program program;
-  accept_runs(program, right_picture(program), 1);
+  accept_runs(program, correct_image(program), 1);
   ASSERT_EQ(program.run(measure_into("s.sqlite"), "{}").code, 0);  // measures a wrong image
   EXPECT_EQ(program.run(judge_from("s.sqlite") + " --out all").code, 1);
   EXPECT_NE(program.read("all/report.html").find("<h1>FAIL (1)</h1>"), std::string::npos);
@@ -143,10 +143,10 @@ TEST(Gate, ThePageAgreesWithTheScreen) {
 
 TEST(Gate, AnUntimedRunIsJudgedByImagesAndCounters) {
   const Program program;
-  const auto picture = right_picture(program);
-  accept_runs(program, picture, 6);
+  const auto image_file = correct_image(program);
+  accept_runs(program, image_file, 6);
   const Result untimed =
-      program.run(measure_into("u.sqlite") + " --untimed", script(picture, 1.2, 7));
+      program.run(measure_into("u.sqlite") + " --untimed", script(image_file, 1.2, 7));
   ASSERT_EQ(untimed.code, 0) << untimed.output;
   const Result judged = program.run(judge_from("u.sqlite"));
   EXPECT_EQ(judged.code, 0) << judged.output;
@@ -161,9 +161,9 @@ TEST(Gate, OutputsThatNeedTimesRejectAnUntimedRun) {
 
 TEST(Gate, AMissingRequiredDeviceDoesNotPass) {
   const Program program;
-  const auto picture = right_picture(program);
-  accept_runs(program, picture, 1);
-  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(picture, 1, 1)).code, 0);
+  const auto image_file = correct_image(program);
+  accept_runs(program, image_file, 1);
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(image_file, 1, 1)).code, 0);
   const Result judged = program.run(judge_from("s.sqlite") + " --require 'vulkan:*'");
   EXPECT_EQ(judged.code, 2) << judged.output;
   EXPECT_NE(judged.output.find("vulkan:*"), std::string::npos);
@@ -173,7 +173,7 @@ TEST(Gate, AMissingRequiredDeviceDoesNotPass) {
 // before anything is judged, and nothing is written.
 TEST(Gate, OutputsWithTheSameNameAreRejected) {
   const Program program;
-  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(right_picture(program), 1, 1)).code, 0);
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(correct_image(program), 1, 1)).code, 0);
   const std::string store = program.read("s.sqlite");
   for (const auto& [outputs, says] :
        {std::pair("--junit s.sqlite",
@@ -195,10 +195,10 @@ TEST(Gate, OutputsWithTheSameNameAreRejected) {
 
 TEST(Gate, AChangedBaselineIsReported) {
   const Program program;
-  const auto picture = right_picture(program);
-  accept_runs(program, picture, 1);
+  const auto image_file = correct_image(program);
+  accept_runs(program, image_file, 1);
   program.write("baselines/volume/quick/counters.json", "{\n \"camera\": {\n");
-  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(picture, 1, 1)).code, 0);
+  ASSERT_EQ(program.run(measure_into("s.sqlite"), script(image_file, 1, 1)).code, 0);
   const Result judged = program.run(judge_from("s.sqlite"));
   EXPECT_EQ(judged.code, 2) << judged.output;
   EXPECT_NE(judged.output.find("counters.json was changed"), std::string::npos) << judged.output;

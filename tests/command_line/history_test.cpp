@@ -7,8 +7,8 @@
 #include <thread>
 
 #include "core/json.hpp"
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -23,7 +23,7 @@ class History : public testing::Test {
   void measure(const std::string& store, const std::string& base_ns, const std::string& keys = "",
                const std::string& how = "") const {
     const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}{}}})",
-                                           picture.string(), base_ns, keys);
+                                           image_file.string(), base_ns, keys);
     const Result result =
         program.run(fmt::format("run volume/quick --store {} {} {}", store, tiny,
                                 how.starts_with("--set") ? how : "--set skip=none,bricks " + how),
@@ -32,7 +32,7 @@ class History : public testing::Test {
   }
 
   Program program;
-  std::filesystem::path picture = right_picture(program);
+  std::filesystem::path image_file = correct_image(program);
 };
 
 TEST_F(History, ReportsChangesAndTheFirstStoreThatIsWorse) {

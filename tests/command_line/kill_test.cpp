@@ -10,10 +10,10 @@
 #include <sstream>
 
 #include "core/random.hpp"
+#include "correct_image.hpp"
 #include "killed.hpp"
 #include "program.hpp"
 #include "record/store.hpp"
-#include "right_picture.hpp"
 #include "tree.hpp"
 
 namespace triptych::command_line {
@@ -43,7 +43,7 @@ class Kill : public testing::Test {
   // Returns the script of a device that draws the correct image in frames of `base_us`
   // microseconds.
   [[nodiscard]] std::string script(int base_us = 100) const {
-    return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}}})", picture.string(),
+    return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": {}}})", image_file.string(),
                        1000 * base_us);
   }
 
@@ -76,7 +76,7 @@ class Kill : public testing::Test {
   }
 
   Program program;
-  fs::path picture = right_picture(program);
+  fs::path image_file = correct_image(program);
 };
 
 // The line "3/8 null:scripted …" is printed after the configuration was stored.

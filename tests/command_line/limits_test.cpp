@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 #include "tree.hpp"
 
 namespace triptych::command_line {

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -77,11 +77,11 @@ class CiSystems : public testing::Test {
     ASSERT_EQ(program.run("accept --reason new --baselines baselines --store s.sqlite").code, 0);
   }
   [[nodiscard]] std::string right() const {
-    return fmt::format(R"({{"images": {{"*": "{}"}}}})", picture.string());
+    return fmt::format(R"({{"images": {{"*": "{}"}}}})", image_file.string());
   }
 
   Program program;
-  std::filesystem::path picture = right_picture(program);
+  std::filesystem::path image_file = correct_image(program);
 };
 
 TEST_F(CiSystems, GitHubGetsAnnotationsASummaryAndAFoldedLog) {

@@ -7,8 +7,8 @@
 #include <regex>
 #include <string>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -49,7 +49,7 @@ Printed without(Printed command, const std::string& part) {
 class Paste : public testing::Test {
  protected:
   [[nodiscard]] std::string script(const std::string& failures) const {
-    return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": 1e5{}}})", picture.string(),
+    return fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": 1e5{}}})", image_file.string(),
                        failures);
   }
 
@@ -58,7 +58,7 @@ class Paste : public testing::Test {
   }
 
   Program program;
-  std::filesystem::path picture = right_picture(program);
+  std::filesystem::path image_file = correct_image(program);
 };
 
 TEST_F(Paste, TheCommandForAWrongImageReproducesIt) {

@@ -7,8 +7,8 @@
 
 #include <filesystem>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -25,7 +25,7 @@ class ReadOnly : public testing::Test {
     std::filesystem::create_directory(program.folder() / "own");
     std::filesystem::permissions(program.folder(), perms::all);
     std::filesystem::permissions(program.folder() / "own", perms::all);
-    const std::string script = R"({"images": {"*": ")" + right_picture(program).string() + R"("}})";
+    const std::string script = R"({"images": {"*": ")" + correct_image(program).string() + R"("}})";
     ASSERT_EQ(
         program.run(fmt::format("run volume/quick --store kept/s.sqlite {}", tiny), script).code,
         0);

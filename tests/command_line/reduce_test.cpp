@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -97,7 +97,7 @@ TEST(Reduce, AHangIsReducedWithinItsTimeLimit) {
 TEST(Reduce, AFrameThatDoesNotFailPasses) {
   const Program program;
   const std::string script = fmt::format(R"({{"images": {{"*": "{}"}}, "base_ns": 1e5}})",
-                                         right_picture(program).string());
+                                         correct_image(program).string());
   const Result result =
       program.run(std::string("reduce volume --out r --set step=0.5 ") + tiny, script);
   EXPECT_EQ(result.code, 0) << result.output;
@@ -125,7 +125,7 @@ step: [0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5, 1]
     const std::string script = fmt::format(
         R"({{"images": {{"*": "{}"}}, "base_ns": 1e5, "failures": [
             {{"kind": "crash", "at": "frame", "only": "*step=0.5,*", "after": [{}]}}]}})",
-        right_picture(program_).string(), after);
+        correct_image(program_).string(), after);
     script_ = script;
     return program_.run(
         fmt::format("reduce volume --out r --set step=0.5 {} --after order.yaml {}", tiny, more),

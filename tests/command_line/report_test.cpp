@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "correct_image.hpp"
 #include "program.hpp"
-#include "right_picture.hpp"
 #include "support/well_formed.hpp"
 
 namespace triptych::command_line {
@@ -55,7 +55,7 @@ TEST_F(ReportTest, EveryChartIsDrawn) {
 // image is wrong.
 TEST_F(ReportTest, WithoutBaselinesBeginsWithResults) {
   const std::string run = std::string("run volume/quick --untimed --store s.sqlite ") + tiny;
-  const std::string right = R"({"images": {"*": ")" + right_picture(program_).string() + R"("}})";
+  const std::string right = R"({"images": {"*": ")" + correct_image(program_).string() + R"("}})";
   ASSERT_EQ(program_.run(run, right).code, 0);
   EXPECT_THAT(report(), HasSubstr("<h1>Results without baselines (2)</h1>"));
   ASSERT_EQ(program_.run(run).code, 0);
@@ -77,8 +77,8 @@ TEST_F(ReportTest, BeginsWithVerdictThenImagesThenPlans) {
   const auto header = page.find("<header id=\"verdict\"");
   EXPECT_LT(header, page.find("<a href=\"#plan0\">volume/quick</a>"));
   EXPECT_LT(header, page.find("<th scope=\"row\">Images</th>"));
-  EXPECT_LT(page.find("<th scope=\"row\">Images</th>"), page.find("<h2 id=\"pictures\">"));
-  EXPECT_LT(page.find("<h2 id=\"pictures\">"), page.find("<section id=\"plan0\">"));
+  EXPECT_LT(page.find("<th scope=\"row\">Images</th>"), page.find("<h2 id=\"images\">"));
+  EXPECT_LT(page.find("<h2 id=\"images\">"), page.find("<section id=\"plan0\">"));
 }
 
 TEST_F(ReportTest, OutputsWithTheSameNameAreRejected) {

@@ -123,7 +123,7 @@ TEST(Usage, AnInterruptSuggestsResumeIfPossible) {
                            "--device null:scripted";
   const std::string script = R"({"failures": [{"kind": "hang", "at": "open"}]})";
   const std::string interrupted = "timeout --foreground -s INT 2";
-  expect_refused(program.run("render volume " + hang + " --out picture", script, interrupted), 124,
+  expect_refused(program.run("render volume " + hang + " --out frame", script, interrupted), 124,
                  "triptych: interrupted\n");
   const Result run = program.run("run volume/quick " + hang, script, interrupted);
   EXPECT_NE(
@@ -181,7 +181,7 @@ TEST(Usage, ADamagedVolume) {
   program.write("short.nrrd",
                 "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 4 4\nencoding: raw\n\nabc");
   const Result result =
-      program.run("render volume --device 'null:scripted' --set data=short.nrrd --out picture");
+      program.run("render volume --device 'null:scripted' --set data=short.nrrd --out frame");
   expect_refused(result, 3, "short.nrrd");
   EXPECT_EQ(program.run("render volume --device 'null:scripted' --set data=gone.nrrd --out p").code,
             3);

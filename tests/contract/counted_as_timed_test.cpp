@@ -164,7 +164,7 @@ TEST(CountedAsTimed, RaysEndAtTheSameStepInBothBuilds) {
   });
 }
 
-void expect_one_picture(measure::Device& device, const measure::Work& work) {
+void expect_same_image(measure::Device& device, const measure::Work& work) {
   const auto prepared = device.prepare(work);
   static_cast<void>(prepared->frame(measure::Purpose::timing));
   const core::Image timed = prepared->image();
@@ -186,7 +186,7 @@ TEST(CountedAsTimed, BothBuildsDrawTheSameVolumeImage) {
             volume.options.skip = skip;
             volume.options.adapt = adapt;
             volume.scene.quadrature = rule;
-            if (!device.unsupported(work)) expect_one_picture(device, work);
+            if (!device.unsupported(work)) expect_same_image(device, work);
           }
         }
       }
@@ -207,8 +207,8 @@ TEST(CountedAsTimed, BothBuildsRejectTheSameFragmentsEarly) {
         measure::Work faulty = whole;
         measure::inject("wrong_sense", faulty);
         const bool rejects = !device.unsupported(faulty);
-        if (rejects) expect_one_picture(device, faulty);
-        if (everything() || (conservative && !rejects)) expect_one_picture(device, whole);
+        if (rejects) expect_same_image(device, faulty);
+        if (everything() || (conservative && !rejects)) expect_same_image(device, whole);
       });
     }
   });

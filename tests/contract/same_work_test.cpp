@@ -42,8 +42,8 @@ TEST(SameWork, LeapsInAVolumeWithoutEmptyBricks) {
 TEST(SameWork, EarlyTerminationThatNoRayReaches) {
   on_every_driver([](measure::Device& device) {
     const measure::Work never = full_volume(device);
-    const core::Image picture = draw(device, never);
-    const double least = measure::least_transmittance(never, picture);
+    const core::Image image = draw(device, never);
+    const double least = measure::least_transmittance(never, image);
     ASSERT_GT(least, 0);
     ASSERT_LT(least, 0.9);
     measure::Work ending = never;

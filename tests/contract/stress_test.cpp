@@ -63,7 +63,8 @@ TEST(Stress, AHundredRepeatsAreBitIdentical) {
     for (const technique::Technique& technique : technique::catalogue()) {
       measure::Work work = work_of(device, stress_scene(*stress_data("stress:asymmetric")));
       work.technique = technique.id;
-      if (technique.suite != "volume" || !technique.picture || device.unsupported(work)) continue;
+      if (technique.suite != "volume" || !technique.draws_image || device.unsupported(work))
+        continue;
       SCOPED_TRACE(technique.id);
       const auto prepared = device.prepare(work);
       static_cast<void>(prepared->frame(measure::Purpose::timing));

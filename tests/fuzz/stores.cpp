@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     for (const record::Run& run : store.runs()) {
       fuzz::expect_ours([&] { static_cast<void>(store.devices(run.id)); });
       for (const record::Record& record : store.records(run.id)) {
-        fuzz::expect_ours([&] { static_cast<void>(store.picture(record.image)); });
+        fuzz::expect_ours([&] { static_cast<void>(store.decoded_image(record.image)); });
         fuzz::expect_ours([&] { static_cast<void>(store.truth(record.scene, "1")); });
       }
     }

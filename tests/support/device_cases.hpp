@@ -66,7 +66,7 @@ inline measure::Work make_work(std::string_view technique, scene::VolumeScene sc
 }
 
 // Returns the image of one timed frame.
-inline core::Image picture(measure::Device& device, const measure::Work& work) {
+inline core::Image draw_image(measure::Device& device, const measure::Work& work) {
   const auto prepared = device.prepare(work);
   static_cast<void>(prepared->frame(measure::Purpose::timing));
   return prepared->image();
@@ -86,7 +86,7 @@ inline double largest_difference(const core::Image& a, const core::Image& b) {
 }
 
 // Checks that frames for all purposes draw the same image, and that a later timed frame does too.
-inline void expect_one_picture(measure::Prepared& prepared) {
+inline void expect_same_image(measure::Prepared& prepared) {
   using measure::Purpose;
   static_cast<void>(prepared.frame(Purpose::timing));
   const core::Image timed = prepared.image();

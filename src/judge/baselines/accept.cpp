@@ -15,7 +15,7 @@
 #include "judge/baselines/drop_skipped.hpp"
 #include "judge/baselines/layout.hpp"
 #include "judge/baselines/next_folder.hpp"
-#include "record/has_picture.hpp"
+#include "record/has_image.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -44,7 +44,7 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
   if (accepted.replaces_all) drop_all_but(table, accepted.scenes);
   std::set<std::string> done;
   for (const record::Record& record : accepted.measured) {
-    if (!record::has_picture(record)) continue;
+    if (!record::has_image(record)) continue;
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
       if (keeps) update_image(record, reference, next);

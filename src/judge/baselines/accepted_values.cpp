@@ -100,11 +100,11 @@ void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
   Json& table = table_of(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
-    const accuracy::LimitPicture* limit = request.limit(record);
+    const accuracy::LimitImage* limit = request.limit(record);
     if (limit == nullptr) erase_from(table, record.configuration, record.device);
     if (limit == nullptr || record.image.empty()) continue;
-    const auto error =
-        accuracy::picture_error(store.picture(record.image), request.truth(record), limit->image);
+    const auto error = accuracy::limit_errors(store.decoded_image(record.image),
+                                              request.truth(record), limit->image);
     if (!error) continue;
     table[record.configuration][record.device] = {{"rmse", error->rmse},
                                                   {"arithmetic", error->arithmetic}};

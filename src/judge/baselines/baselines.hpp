@@ -205,7 +205,7 @@ struct AcceptRequest {
   std::function<std::string(const record::Record&)> data_hash = {};
   // Returns the limit image of a record's scene, or nullptr if the scene has none. If the function
   // is empty, no errors are stored.
-  std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
+  std::function<const accuracy::LimitImage*(const record::Record&)> limit = {};
   // Used to score every record of the run. nullopt: no scores are stored.
   std::optional<StressTruths> stress = {};
   // Called with the name of each file after the file was written to the new folder. Called with ""

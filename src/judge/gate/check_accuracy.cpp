@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "judge/gate/run_view.hpp"
-#include "record/has_picture.hpp"
+#include "record/has_image.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -42,7 +42,7 @@ std::optional<double> allowed_on(const std::map<std::string, StoredError>& store
 }
 
 Finding judge_error(const RunView& view, const record::Record& record,
-                    const accuracy::PictureError& error) {
+                    const accuracy::LimitErrors& error) {
   const auto limit = allowed_on(view.baselines.errors(record.configuration), record.device);
   const bool kept = limit && error.rmse <= *limit;
   Finding finding =
@@ -110,7 +110,7 @@ class Scenes {
  public:
   // A configuration with the level `auto` counts as the same case as the configuration with the
   // level to which `auto` resolves on the device.
-  void add(const record::Record& record, const accuracy::LimitPicture& limit,
+  void add(const record::Record& record, const accuracy::LimitImage& limit,
            accuracy::AccuracyCase each) {
     const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());
     if (is_new) scenes_.push_back(accuracy::accuracy_scene(record, limit));
@@ -160,7 +160,7 @@ class AccuracyCheck {
   }
 
   void measure_error(const record::Record& record) {
-    const accuracy::LimitPicture* limit = view_.request.limit(record);
+    const accuracy::LimitImage* limit = view_.request.limit(record);
     if (limit == nullptr) {
       // If no error was accepted for the configuration, its scene had no limit image before either,
       // so it needs no finding.
@@ -172,8 +172,8 @@ class AccuracyCheck {
       add(record, Verdict::cannot_judge, {.cause = Cause::no_image}, {Advice::run_again});
       return;
     }
-    const auto error = accuracy::picture_error(view_.store.picture(record.image),
-                                               view_.request.truth(record).truth, limit->image);
+    const auto error = accuracy::limit_errors(view_.store.decoded_image(record.image),
+                                              view_.request.truth(record).truth, limit->image);
     if (!error) {
       add(record, Verdict::regression, {.cause = Cause::not_comparable});
       return;
@@ -198,7 +198,7 @@ AccuracyFindings check_accuracies(const RunView& view) {
   if (view.request.limit && view.request.truth) {
     AccuracyCheck check(view, result);
     for (const record::Record* record : view.measured) {
-      if (record::has_picture(*record)) check.look_at(*record);
+      if (record::has_image(*record)) check.look_at(*record);
     }
     check.finish();
   }

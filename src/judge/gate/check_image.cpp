@@ -8,7 +8,7 @@
 #include "judge/gate/run_view.hpp"
 #include "judge/image_observation.hpp"
 #include "record/factor_list.hpp"
-#include "record/has_picture.hpp"
+#include "record/has_image.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 constexpr double truth_tolerance = 1e-5;
 
 // A correct image of one device, for the comparison with the images of other devices.
-struct Picture {
+struct JudgedImage {
   const record::Record* record;
   core::Image image;
   double rmse;  // error against the reference image
@@ -56,7 +56,7 @@ class SceneJudge {
     check_truth(pair);
     core::Image image;
     try {
-      image = view_.store.picture(record.image);
+      image = view_.store.decoded_image(record.image);
     } catch (const core::Error& error) {
       return undecided(record, {.cause = Cause::unreadable_image, .detail = error.what()});
     }
@@ -66,16 +66,15 @@ class SceneJudge {
   // Compares the images of different devices, and reports the two images that differ most. Call
   // this function after all records of the scene have been judged.
   void judge_agreement() {
-    const Picture* left = nullptr;
-    const Picture* right = nullptr;
+    const JudgedImage* left = nullptr;
+    const JudgedImage* right = nullptr;
     double largest = -1;
-    for (std::size_t i = 0; i < pictures_.size(); ++i) {
-      for (std::size_t j = i + 1; j < pictures_.size(); ++j) {
-        if (pictures_[i].record->device == pictures_[j].record->device) continue;
-        const double rms =
-            accuracy::root_mean_square(pictures_[i].image, pictures_[j].image, bound_);
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+      for (std::size_t j = i + 1; j < images_.size(); ++j) {
+        if (images_[i].record->device == images_[j].record->device) continue;
+        const double rms = accuracy::root_mean_square(images_[i].image, images_[j].image, bound_);
         if (!(rms > largest)) continue;
-        std::tie(left, right, largest) = std::tuple(&pictures_[i], &pictures_[j], rms);
+        std::tie(left, right, largest) = std::tuple(&images_[i], &images_[j], rms);
       }
     }
     if (left == nullptr) return;
@@ -104,7 +103,7 @@ class SceneJudge {
         record, Check::image, right ? Verdict::pass : Verdict::regression, std::move(what)));
     if (right && on_default_path(record)) {
       const double rmse = accuracy::root_mean_square(image, pair.truth, pair.bound);
-      pictures_.push_back({&record, std::move(image), rmse});
+      images_.push_back({&record, std::move(image), rmse});
       if (!pair.bound.ids.empty()) bound_ = pair.bound;
     }
   }
@@ -141,7 +140,7 @@ class SceneJudge {
     out_.findings.push_back(std::move(finding));
   }
 
-  void report_agreement(const Picture& nearer, const Picture& farther, double rms) {
+  void report_agreement(const JudgedImage& nearer, const JudgedImage& farther, double rms) {
     const bool agree = rms < device_agreement;
     Finding finding = finding_about(
         *farther.record, Check::image, agree ? Verdict::pass : Verdict::regression,
@@ -162,7 +161,7 @@ class SceneJudge {
   std::optional<core::Image> stored_;       // the accepted reference image, if it is stored
   std::optional<ReferenceHash> reference_;  // the hash of that image, if only the hash is stored
   bool truth_checked_ = false;
-  std::vector<Picture> pictures_;
+  std::vector<JudgedImage> images_;
   // The error bound of a particle scene. Its `ids` are flags: 0 means that rounding cannot change
   // which particle the pixel shows.
   core::Image bound_;
@@ -179,7 +178,7 @@ ImageFindings check_images(const RunView& view) {
   }
   std::map<std::string, std::vector<const record::Record*>> scenes;
   for (const record::Record* record : view.measured) {
-    if (record::has_picture(*record)) scenes[record->scene].push_back(record);
+    if (record::has_image(*record)) scenes[record->scene].push_back(record);
   }
   for (const auto& [scene, records] : scenes) {
     SceneJudge judge(view, out, scene);

@@ -76,7 +76,7 @@ struct GateRequest {
   FindTruth truth;
   // Returns the limit image of a record's scene, which shows the exact ray integral, or nullptr if
   // the scene has none. The limit image must live as long as the request.
-  std::function<const accuracy::LimitPicture*(const record::Record&)> limit = {};
+  std::function<const accuracy::LimitImage*(const record::Record&)> limit = {};
   // Returns the expectations that a record must meet in addition to matching its reference image.
   // If the function is empty, there are none.
   FindExpectations expectations = {};

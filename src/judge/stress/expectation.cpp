@@ -44,7 +44,7 @@ void add_pixel(Observation& what, const std::string& prefix, const std::array<fl
 // Compares two images pixel by pixel. Requires that fits() returns true for the images.
 class SameJudge {
  public:
-  SameJudge(const record::SamePicture& rule, const Judged& one, const Judged& other)
+  SameJudge(const record::SameImage& rule, const Judged& one, const Judged& other)
       : rule_(rule), one_(one), other_(other) {}
 
   // Returns nullopt if the images are equal according to the rule.
@@ -106,25 +106,25 @@ class SameJudge {
            static_cast<double>(my_bound[a]) + static_cast<double>(scale * their_bound[b]);
   }
 
-  const record::SamePicture& rule_;
+  const record::SameImage& rule_;
   const Judged& one_;
   const Judged& other_;
 };
 
-bool fits(const record::SamePicture& rule, const core::Image& image, const core::Image& other) {
+bool fits(const record::SameImage& rule, const core::Image& image, const core::Image& other) {
   return rule.at[0] >= 0 && rule.at[1] >= 0 && rule.at[0] + image.width <= other.width &&
          rule.at[1] + image.height <= other.height && image.ids.empty() == other.ids.empty();
 }
 
-std::optional<Observation> unmet_rule(const record::SamePicture& rule, const record::Record& record,
+std::optional<Observation> unmet_rule(const record::SameImage& rule, const record::Record& record,
                                       StressRun& run, const FindTruth& truth) {
   const std::string levels = record::factor_list(rule.changed);
   const record::Record* other = run.other(record, rule.changed);
-  const core::Image* theirs = other == nullptr ? nullptr : run.picture(*other);
+  const core::Image* theirs = other == nullptr ? nullptr : run.image(*other);
   if (theirs == nullptr) {
     return Observation{.cause = Cause::no_other_image, .facts = {{"levels", levels}}};
   }
-  const core::Image& mine = *run.picture(record);
+  const core::Image& mine = *run.image(record);
   if (!fits(rule, mine, *theirs)) {
     return Observation{.cause = Cause::not_inside,
                        .numbers = {{"width", mine.width},
@@ -148,7 +148,7 @@ std::optional<Observation> unmet_rule(const record::SamePicture& rule, const rec
 
 std::optional<Observation> unmet_rule(const record::OneColour& rule, const record::Record& record,
                                       StressRun& run, const FindTruth& /*truth*/) {
-  const core::Image& image = *run.picture(record);
+  const core::Image& image = *run.image(record);
   for (std::size_t i = 0; i < image.rgba.size(); ++i) {
     if (same_bits(image.rgba[i], rule.rgba[i % 4])) continue;
     const std::size_t pixel = i / 4;
@@ -216,12 +216,12 @@ const record::Record* StressRun::other(const record::Record& record,
   return found == index_.end() ? nullptr : found->second;
 }
 
-const core::Image* StressRun::picture(const record::Record& record) {
+const core::Image* StressRun::image(const record::Record& record) {
   if (record.image.empty()) return nullptr;
-  const auto known = pictures_.find(record.image);
-  if (known != pictures_.end()) return &known->second;
+  const auto known = images_.find(record.image);
+  if (known != images_.end()) return &known->second;
   try {
-    return &pictures_.emplace(record.image, store_.picture(record.image)).first->second;
+    return &images_.emplace(record.image, store_.decoded_image(record.image)).first->second;
   } catch (const core::Error&) {
     return nullptr;
   }
@@ -230,7 +230,7 @@ const core::Image* StressRun::picture(const record::Record& record) {
 bool has_other(const record::Expectation& expectation, const record::Record& record,
                const StressRun& run) {
   const record::Changed* changed = nullptr;
-  if (const auto* same = std::get_if<record::SamePicture>(&expectation.rule)) {
+  if (const auto* same = std::get_if<record::SameImage>(&expectation.rule)) {
     changed = &same->changed;
   } else if (const auto* count = std::get_if<record::CountAtMost>(&expectation.rule)) {
     changed = &count->changed;

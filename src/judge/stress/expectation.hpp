@@ -24,7 +24,7 @@ class StressRun {
                                             const record::Changed& changed) const;
   // Returns the image of a record, or nullptr if the record has no image or the image cannot be
   // read from the store.
-  [[nodiscard]] const core::Image* picture(const record::Record& record);
+  [[nodiscard]] const core::Image* image(const record::Record& record);
 
  private:
   using Factors = std::map<std::string, std::string>;
@@ -32,7 +32,7 @@ class StressRun {
   const record::Store& store_;
   // The records by device and factor levels.
   std::map<std::pair<std::string, Factors>, const record::Record*> index_;
-  std::map<std::string, core::Image> pictures_;  // by the hash of the image
+  std::map<std::string, core::Image> images_;  // by the hash of the image
 };
 
 // Returns whether the run contains the second record with which the expectation compares `record`.

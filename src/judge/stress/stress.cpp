@@ -70,23 +70,23 @@ class Scoring {
       score.drawn = score.right = score.agreed = true;
       return result;
     }
-    const core::Image* picture = nullptr;
+    const core::Image* image = nullptr;
     if (record.outcome != record::Outcome::measured) {
       score.lost.push_back(
           {.cause = Cause::ended, .outcome = record.outcome, .reason = record.reason});
-    } else if (picture = run_.picture(record); picture == nullptr) {
+    } else if (image = run_.image(record); image == nullptr) {
       score.lost.push_back({.cause = Cause::no_image});
-    } else if (!is_finite(*picture)) {
+    } else if (!is_finite(*image)) {
       score.lost.push_back({.cause = Cause::not_finite});
     } else {
       score.drawn = true;
-      judge_picture(*picture, expected, result);
+      judge_image(*image, expected, result);
     }
     return result;
   }
 
-  void judge_picture(const core::Image& picture, const std::vector<record::Expectation>& expected,
-                     Case& result) {
+  void judge_image(const core::Image& image, const std::vector<record::Expectation>& expected,
+                   Case& result) {
     StressScore& score = result.score;
     TruthPair pair;
     try {
@@ -95,8 +95,8 @@ class Scoring {
       score.lost.push_back({.cause = Cause::no_reference, .detail = error.what()});
       return;
     }
-    const accuracy::ImageComparison comparison = accuracy::compare(picture, pair.truth, pair.bound);
-    Observation found = image_observation(comparison, picture, pair.truth, Against::reference);
+    const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
+    Observation found = image_observation(comparison, image, pair.truth, Against::reference);
     score.right = found.cause == Cause::within_bound;
     if (!score.right) score.lost.push_back(std::move(found));
     for (const record::Expectation& each : expected) {
@@ -107,7 +107,7 @@ class Scoring {
       score.lost.push_back(std::move(*wrong));
     }
     if (!comparison.size_mismatch) {
-      result.rmse = accuracy::root_mean_square(picture, pair.truth, pair.bound);
+      result.rmse = accuracy::root_mean_square(image, pair.truth, pair.bound);
       result.bound = std::move(pair.bound);
     }
   }
@@ -117,10 +117,10 @@ class Scoring {
   void judge_agreement(Case& own, const std::vector<Case*>& cases) {
     if (!own.rmse) return;
     own.score.agreed = true;
-    const core::Image& mine = *run_.picture(*own.record);
+    const core::Image& mine = *run_.image(*own.record);
     for (const Case* other : cases) {
       if (other == &own || !other->rmse || !(*other->rmse <= *own.rmse)) continue;
-      const double rms = accuracy::root_mean_square(mine, *run_.picture(*other->record), own.bound);
+      const double rms = accuracy::root_mean_square(mine, *run_.image(*other->record), own.bound);
       if (rms < device_agreement) continue;
       own.score.agreed = false;
       own.score.lost.push_back({.cause = Cause::farther_device,

@@ -36,14 +36,14 @@ std::string reason_for(const PlainWork& known, const PlainWork& wanted, double t
 
 }  // namespace
 
-double least_transmittance(const Work& work, const core::Image& picture) {
+double least_transmittance(const Work& work, const core::Image& image) {
   const auto* volume = std::get_if<VolumeWork>(&work.scene);
-  if (volume == nullptr || picture.rgba.empty()) return 0;
+  if (volume == nullptr || image.rgba.empty()) return 0;
   const double shows = 1.0 - static_cast<double>(volume->scene.background[3]);
   if (!(shows > 0.5)) return 0;
   double alpha = 0;
-  for (std::size_t i = 3; i < picture.rgba.size(); i += 4) {
-    const double here = static_cast<double>(picture.rgba[i]);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    const double here = static_cast<double>(image.rgba[i]);
     if (std::isnan(here)) return 0;
     alpha = std::max(alpha, here);
   }
@@ -66,8 +66,8 @@ std::optional<Equivalent> Equivalents::find(const PlainWork& plain) const {
 }
 
 void Equivalents::add(const PlainWork& plain, const std::string& key, const Work& work,
-                      const core::Image& picture) {
-  known_[plain.levels].push_back({key, plain, least_transmittance(work, picture)});
+                      const core::Image& image) {
+  known_[plain.levels].push_back({key, plain, least_transmittance(work, image)});
 }
 
 }  // namespace triptych::measure

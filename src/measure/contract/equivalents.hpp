@@ -29,7 +29,7 @@ class Equivalents {
 
   // Adds the configuration `key`, together with its image.
   void add(const PlainWork& plain, const std::string& key, const Work& work,
-           const core::Image& picture);
+           const core::Image& image);
 
  private:
   struct Known {
@@ -43,6 +43,6 @@ class Equivalents {
 // Returns the smallest transmittance among the rays of all pixels. It is computed from the alpha
 // channel of a premultiplied image and from the work's background. Returns 0 if the background is
 // opaque or the scene is not a volume.
-[[nodiscard]] double least_transmittance(const Work& work, const core::Image& picture);
+[[nodiscard]] double least_transmittance(const Work& work, const core::Image& image);
 
 }  // namespace triptych::measure

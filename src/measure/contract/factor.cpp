@@ -16,7 +16,7 @@ Factor choice(std::string name, std::vector<std::string> levels, std::string sta
           .kind = FactorKind::choice,
           .levels = std::move(levels),
           .standard = std::move(standard),
-          .of_scene = decides == Decides::the_picture,
+          .of_scene = decides == Decides::the_image,
           .summary = std::move(summary)};
 }
 
@@ -28,7 +28,7 @@ Factor number(std::string name, double minimum, double maximum, std::string stan
           .minimum = minimum,
           .maximum = maximum,
           .standard = std::move(standard),
-          .of_scene = decides == Decides::the_picture,
+          .of_scene = decides == Decides::the_image,
           .summary = std::move(summary)};
 }
 
@@ -48,7 +48,7 @@ Factor technique_factor(std::string_view suite, std::string standard, std::strin
   for (const technique::Technique& each : technique::catalogue()) {
     if (each.suite != suite) continue;
     factor.levels.push_back(each.id);
-    if (each.picture) factor.automatic.push_back(each.id);
+    if (each.draws_image) factor.automatic.push_back(each.id);
   }
   return factor;
 }

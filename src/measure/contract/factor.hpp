@@ -10,7 +10,7 @@
 
 namespace triptych::measure {
 
-enum class Decides : std::uint8_t { the_picture, how_it_is_made };
+enum class Decides : std::uint8_t { the_image, how_it_is_made };
 
 [[nodiscard]] Factor choice(std::string name, std::vector<std::string> levels, std::string standard,
                             Decides decides, std::string summary);

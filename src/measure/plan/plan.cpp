@@ -302,7 +302,7 @@ void hold(const Combinations& combinations, const Shard& shard, Plan& plan) {
 
 }  // namespace
 
-bool Plan::judges_pictures() const {
+bool Plan::judges_images() const {
   using enum record::Check;
   return checks.contains(image) || checks.contains(accuracy) || checks.contains(stress);
 }

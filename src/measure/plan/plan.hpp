@@ -38,7 +38,7 @@ struct Plan {
   [[nodiscard]] bool timed() const { return checks.contains(record::Check::timing); }
   [[nodiscard]] bool counted() const { return checks.contains(record::Check::cost); }
   [[nodiscard]] bool compiled() const { return checks.contains(record::Check::code); }
-  [[nodiscard]] bool judges_pictures() const;
+  [[nodiscard]] bool judges_images() const;
   [[nodiscard]] bool judges_counters() const;
 };
 

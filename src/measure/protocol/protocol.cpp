@@ -171,7 +171,7 @@ Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
   record::Record& record = result.record;
   static_cast<void>(counter.counting(record.cost, [&] { return prepared.frame(Purpose::timing); }));
   proof.check("the frame whose instructions are counted");
-  if (protocol.picture) {
+  if (protocol.keep_image) {
     result.image = proof.take_image();
     record.image = image_hash(result.image);
   }

@@ -32,7 +32,7 @@ struct Protocol {
   // If true, the instructions of the third frame are counted (counting/emulator.hpp), and no times
   // are measured. Triptych's counters and the image are recorded only if they are requested.
   bool counted = false;
-  bool picture = true;  // whether the image of a counted frame is recorded
+  bool keep_image = true;  // whether the image of a counted frame is recorded
   // If true, a configuration whose instructions are to be counted is first drawn without the
   // emulator, only so that the driver stores the compiled code in its cache
   // (run/ahead_compiler.hpp). The result is discarded.

@@ -73,7 +73,7 @@ class Search {
   // Adds the candidate configurations for a scene, or the reason why there are none.
   void add(const Configuration& scene, ErrorRequest& result) {
     const std::string name = scene_of(suite_, scene);
-    const accuracy::LimitPicture* limit = truths_.limit_of(record_of(scene));
+    const accuracy::LimitImage* limit = truths_.limit_of(record_of(scene));
     if (limit == nullptr) {
       result.out_of_reach.push_back(
           name +
@@ -131,13 +131,13 @@ class Search {
     return record;
   }
 
-  [[nodiscard]] double error(const core::Image& limit, const core::Image& picture) const {
-    return accuracy::errors_against(limit, picture).of(request_.metric);
+  [[nodiscard]] double error(const core::Image& limit, const core::Image& image) const {
+    return accuracy::errors_against(limit, image).of(request_.metric);
   }
 
   void search_on_few_pixels(const Configuration& scene) {
     const auto [width, height] = parse_viewport(scene.at("viewport"));
-    const accuracy::PictureSize size = accuracy::search_size({width, height});
+    const accuracy::ImageSize size = accuracy::search_size({width, height});
     few_pixels_ = fmt::format("{}x{}", size.width, size.height);
     Configuration coarse = scene;
     coarse["viewport"] = few_pixels_;
@@ -200,9 +200,9 @@ class Search {
 // The results of one device for a scene.
 struct Group {
   std::vector<accuracy::TimedError> cases;
-  std::vector<accuracy::PictureErrors> errors;
+  std::vector<accuracy::ErrorsByMetric> errors;
   std::vector<const record::Record*> records;
-  accuracy::PictureErrors nothing;
+  accuracy::ErrorsByMetric nothing;
 };
 
 ErrorAnswer answer_of(const Group& group, const RequestedError& request) {
@@ -259,9 +259,9 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
     const auto asked = record::parse_factor_list(record.configuration);
     Group& group = groups[{record.device, scene_of(suite, asked)}];
     if (record.outcome != record::Outcome::measured || record.image.empty()) continue;
-    const accuracy::LimitPicture* limit = truths.limit_of(record);
+    const accuracy::LimitImage* limit = truths.limit_of(record);
     if (limit == nullptr) continue;
-    const auto errors = accuracy::errors_against(limit->image, truths.picture_of(record));
+    const auto errors = accuracy::errors_against(limit->image, truths.image_of(record));
     if (!std::isfinite(errors.of(request.metric))) continue;
     const auto summary = record::summarise(record.time_ns());
     group.cases.push_back(

@@ -41,8 +41,8 @@ struct ErrorAnswer {
   std::string device;
   std::string scene;                       // the factors that the request did not choose
   const record::Record* record = nullptr;  // null if no candidate meets the error on the device
-  accuracy::PictureErrors errors;          // errors of the record, or of the closest candidate
-  accuracy::PictureErrors nothing;         // errors of an empty image
+  accuracy::ErrorsByMetric errors;         // errors of the record, or of the closest candidate
+  accuracy::ErrorsByMetric nothing;        // errors of an empty image
   double time_ns = 0;                      // median frame time of the record
 };
 // Returns the answers for all scenes and devices in the records, which must outlive the result. If

@@ -132,7 +132,7 @@ Protocol DeviceRun::protocol() const {
   protocol.counted = context_.plan.counted();
   protocol.compiled = context_.plan.compiled();
   if (protocol.counted) {
-    protocol.picture = context_.plan.judges_pictures();
+    protocol.keep_image = context_.plan.judges_images();
     protocol.counters = context_.plan.judges_counters();
   }
   // A plan without times draws every configuration. In this way, it also tests whether

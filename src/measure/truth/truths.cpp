@@ -94,14 +94,14 @@ accuracy::TruthPair Truths::find_or_render(const record::Record& record) {
               [&] { return suite.truth(record.factors, record.precision); });
 }
 
-const accuracy::LimitPicture* Truths::limit_of(const record::Record& record) {
+const accuracy::LimitImage* Truths::limit_of(const record::Record& record) {
   const std::string key = suite_(record.suite).limit_key(record.factors);
   if (key.empty()) return nullptr;
   return &known_or_made(limits_, key, [&] { return find_or_render_limit(record, key); });
 }
 
-accuracy::LimitPicture Truths::find_or_render_limit(const record::Record& record,
-                                                    const std::string& key) {
+accuracy::LimitImage Truths::find_or_render_limit(const record::Record& record,
+                                                  const std::string& key) {
   SuiteWithTruth& suite = suite_(record.suite);
   // A limit (the image to which a scene converges as its sampling is refined) is stored like a
   // reference image, with a special scene name and with its uncertainty as the bound.

@@ -37,16 +37,16 @@ class Truths {
   // See SuiteWithTruth::data_hash. Returns an empty string if the data is unavailable.
   [[nodiscard]] std::string data_hash_of(const record::Record& record);
   // Returns the limit image of the record's scene, or nullptr if the scene has none.
-  [[nodiscard]] const accuracy::LimitPicture* limit_of(const record::Record& record);
+  [[nodiscard]] const accuracy::LimitImage* limit_of(const record::Record& record);
   // Returns the image to which a record of the store refers.
-  [[nodiscard]] core::Image picture_of(const record::Record& record) const {
-    return store_.picture(record.image);
+  [[nodiscard]] core::Image image_of(const record::Record& record) const {
+    return store_.decoded_image(record.image);
   }
 
  private:
   [[nodiscard]] accuracy::TruthPair find_or_render(const record::Record& record);
-  [[nodiscard]] accuracy::LimitPicture find_or_render_limit(const record::Record& record,
-                                                            const std::string& key);
+  [[nodiscard]] accuracy::LimitImage find_or_render_limit(const record::Record& record,
+                                                          const std::string& key);
   // Returns an image and its error bound, which are stored for this scene and version. If there are
   // none, or if this user did not render them (own_seal.hpp), calls `render` and stores the result.
   [[nodiscard]] accuracy::TruthPair kept(const std::string& scene, const std::string& version,
@@ -55,7 +55,7 @@ class Truths {
   FindSuiteWithTruth suite_;
   record::Store& store_;
   std::map<std::string, accuracy::TruthPair> known_;
-  std::map<std::string, accuracy::LimitPicture> limits_;  // by limit key
+  std::map<std::string, accuracy::LimitImage> limits_;  // by limit key
   std::map<std::string, std::map<std::string, double>> open_counts_;
   std::map<std::string, std::string> data_hashes_;
 };

@@ -112,7 +112,7 @@ Json to_json(const Protocol& protocol) {
           {"counters", protocol.counters},
           {"timed", protocol.timed},
           {"counted", protocol.counted},
-          {"picture", protocol.picture},
+          {"keep_image", protocol.keep_image},
           {"ahead", protocol.ahead},
           {"compiled", protocol.compiled},
           {"measure_every", protocol.measure_every}};
@@ -127,7 +127,7 @@ Protocol protocol_from(const Json& json) {
           .counters = json.at("counters"),
           .timed = json.at("timed"),
           .counted = json.at("counted"),
-          .picture = json.at("picture"),
+          .keep_image = json.at("keep_image"),
           .ahead = json.at("ahead"),
           .compiled = json.at("compiled"),
           .measure_every = json.at("measure_every")};

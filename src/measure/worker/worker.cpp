@@ -308,7 +308,7 @@ class Worker {
     if (plain) {
       equivalents_.add(*plain, configuration_key(suite_, job.configuration), work, measured.image);
     }
-    keep_picture(work, measured.image, answer);
+    keep_image(work, measured.image, answer);
   }
 
   void require_execution() const {
@@ -325,8 +325,8 @@ class Worker {
     answer.listings = std::move(compiled.listings);
   }
 
-  static void keep_picture(const Work& work, const core::Image& image, Answer& answer) {
-    if (technique::technique(work.technique).picture) {
+  static void keep_image(const Work& work, const core::Image& image, Answer& answer) {
+    if (technique::technique(work.technique).draws_image) {
       answer.exr = core::encode_exr(image);
     } else {
       answer.record.image.clear();  // the technique's image has no meaning
@@ -355,7 +355,7 @@ class Worker {
         count_instructions(*prepared, protocol_for(job, work, has_statistics_), *counter_);
     measuring_ns_ = measuring.ns();
     answer.record = std::move(measured.record);
-    if (job.protocol.picture) keep_picture(work, measured.image, answer);
+    if (job.protocol.keep_image) keep_image(work, measured.image, answer);
     answer.record.memory = device_->memory();
     answer.record.prepare_cost = std::move(prepare_cost);
     answer.record.factors = std::move(configuration);

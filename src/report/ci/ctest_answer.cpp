@@ -26,8 +26,8 @@ std::string number(std::string_view name, double value) {
 // Writes an image of a test. `what` becomes a part of the file name. The file is not removed,
 // because CTest reads it after this process has ended. It is in a private folder, so that no other
 // user can create a link with the same name.
-std::string picture(std::string_view name, std::string test, std::string_view what,
-                    const core::Image& image) {
+std::string image_element(std::string_view name, std::string test, std::string_view what,
+                          const core::Image& image) {
   // The test id comes from a store, so characters with which it could name another folder are
   // replaced.
   std::ranges::replace_if(
@@ -40,18 +40,18 @@ std::string picture(std::string_view name, std::string test, std::string_view wh
       fs::absolute(file).string());
 }
 
-std::string pictures(const record::Store& store, const std::string& run,
-                     const judge::FindTruth& truth, const judge::Finding& worst) {
+std::string image_elements(const record::Store& store, const std::string& run,
+                           const judge::FindTruth& truth, const judge::Finding& worst) {
   for (const record::Record& record : store.records(run)) {
     if (record.configuration != worst.configuration || record.device != worst.device) continue;
     if (record.image.empty()) return {};
-    const core::Image image = store.picture(record.image);
+    const core::Image image = store.decoded_image(record.image);
     const judge::TruthPair right = truth(record);
-    std::string both = picture("TestImage", worst.test, "test", image) +
-                       picture("ValidImage", worst.test, "valid", right.truth);
+    std::string both = image_element("TestImage", worst.test, "test", image) +
+                       image_element("ValidImage", worst.test, "valid", right.truth);
     if (image.width != right.truth.width || image.height != right.truth.height) return both;
-    return both + picture("DifferenceImage", worst.test, "difference",
-                          share_of_bound(image, right.truth, right.bound).image);
+    return both + image_element("DifferenceImage", worst.test, "difference",
+                                share_of_bound(image, right.truth, right.bound).image);
   }
   return {};
 }
@@ -70,7 +70,7 @@ std::string ctest_answer(const judge::GateResult& result, const record::Store& s
   if (!result.findings.empty()) {
     const judge::Finding& worst = result.findings.front();
     for (const auto& [name, value] : worst.numbers) text += number(name, value);
-    if (truth && !worst.device.empty()) text += pictures(store, result.run, truth, worst);
+    if (truth && !worst.device.empty()) text += image_elements(store, result.run, truth, worst);
   }
   return text + words::headline(result) + "\n";
 }

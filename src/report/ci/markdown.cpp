@@ -44,7 +44,7 @@ std::string bounds(const Overview& all) {
       "| plan | device | images | largest error / bound | configuration |\n|---|---|--:|--:|---|\n";
   for (const NearestBound& bound : all.bounds) {
     text += fmt::format("| {} | {} | {} | {:.3g} | {} |\n", markdown_escaped(bound.plan),
-                        markdown_escaped(bound.device), bound.pictures, bound.share,
+                        markdown_escaped(bound.device), bound.images, bound.share,
                         markdown_escaped(bound.configuration));
     if (text.size() > most_of_bounds) break;
   }

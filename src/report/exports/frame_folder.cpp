@@ -41,8 +41,8 @@ void remove_frame(const std::filesystem::path& folder) {
   }
 }
 
-void write_picture(const std::filesystem::path& folder, const std::string& name,
-                   const core::Image& image) {
+void write_image_files(const std::filesystem::path& folder, const std::string& name,
+                       const core::Image& image) {
   core::write_exr(image, folder / (name + ".exr"));
   core::write_png(image, folder / (name + ".png"));
 }
@@ -50,7 +50,7 @@ void write_picture(const std::filesystem::path& folder, const std::string& name,
 HeldAgainstTruth write_difference(const std::filesystem::path& folder, const core::Image& image,
                                   const judge::TruthPair& pair) {
   const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
-  write_picture(folder, "truth", pair.truth);
+  write_image_files(folder, "truth", pair.truth);
   HeldAgainstTruth held{
       judge::image_observation(comparison, image, pair.truth, judge::Against::reference)};
   if (!comparison.size_mismatch) {

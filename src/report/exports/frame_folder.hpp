@@ -21,8 +21,8 @@ namespace triptych::report {
 void remove_frame(const std::filesystem::path& folder);
 
 // Writes `image` to NAME.exr and NAME.png. Throws IoError.
-void write_picture(const std::filesystem::path& folder, const std::string& name,
-                   const core::Image& image);
+void write_image_files(const std::filesystem::path& folder, const std::string& name,
+                       const core::Image& image);
 
 // The result of comparing an image with its reference image.
 struct HeldAgainstTruth {

@@ -17,7 +17,7 @@ std::vector<NearestBound> nearest_bounds(std::span<const judge::GateResult* cons
       const auto ratio = finding.numbers.find("ratio");
       if (ratio == finding.numbers.end()) continue;
       NearestBound& bound = by_device[finding.device];
-      ++bound.pictures;
+      ++bound.images;
       if (!bound.configuration.empty() && ratio->second <= bound.share) continue;
       bound.share = ratio->second;
       bound.configuration = finding.configuration;

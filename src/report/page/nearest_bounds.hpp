@@ -15,7 +15,7 @@ namespace triptych::report {
 struct NearestBound {
   std::string plan;
   std::string device;
-  std::size_t pictures = 0;
+  std::size_t images = 0;
   double share = 0;  // largest ratio of an error to its bound, over all pixels of correct images
   std::string configuration;  // the configuration with this ratio
 };

@@ -61,12 +61,11 @@ Html plan_part(const record::Store& store, const PlanReport& report, const PlanD
 
 // Shows the findings and the images: next to each other if an image is wrong, otherwise one below
 // the other.
-Html first_part(const Overview& all, const PictureSources& sources,
-                std::span<const PlanData> plans) {
-  const Pictures pictures = pictures_section(sources, plans);
-  const bool beside = !all.open.empty() && pictures.wrong;
+Html first_part(const Overview& all, const PanelSources& sources, std::span<const PlanData> plans) {
+  const ImagesSection images = images_section(sources, plans);
+  const bool beside = !all.open.empty() && images.wrong;
   return markup("<div class=\"{}\"><div>{}</div><div>{}</div></div>\n", beside ? "columns" : "",
-                findings_section(all, plans), pictures.html);
+                findings_section(all, plans), images.html);
 }
 
 }  // namespace
@@ -79,14 +78,14 @@ std::string page(const record::Store& store, const PageRequest& request) {
     results.push_back(&report.verdict);
   }
   const Overview all = overview(std::span<const judge::GateResult* const>(results));
-  const JudgedPictures judged = judged_pictures(all, plans);
+  const JudgedImages judged = judged_images(all, plans);
   Html text = page_begin("Triptych report") + verdict_card(all, plans) + filters(plans) +
               markup("<main>") + first_part(all, {store, request.truth, judged}, plans);
   for (std::size_t i = 0; i < plans.size(); ++i)
     text += plan_part(store, request.plans[i], plans[i]);
   text += words_section(all);
   const Html whole =
-      without_repeated_pictures(text) + markup("</main>") + comparison_dialog() + page_end();
+      without_repeated_images(text) + markup("</main>") + comparison_dialog() + page_end();
   return whole.text();
 }
 

@@ -22,7 +22,7 @@ function openTarget() {
 }
 
 function startFilters(form) {
-  const kinds = [['finding', all('[data-kind=finding]')], ['picture', all('[data-kind=picture]')],
+  const kinds = [['finding', all('[data-kind=finding]')], ['image', all('[data-kind=image]')],
                  ['remark', all('[data-kind=remark]')], ['plan', all('[data-kind=plan]')],
                  ['table', all('[data-kind=values]')]];
   const apply = () => {
@@ -45,7 +45,7 @@ function startFilters(form) {
 }
 
 // Returns the images of a scene by name, without duplicates.
-function picturesOf(scene) {
+function imagesOf(scene) {
   const named = new Map();
   for (const section of all(`[data-scene="${scene}"]`)) {
     for (const image of all('img', section)) named.set(image.alt, image);
@@ -60,13 +60,13 @@ function startComparison(dialog) {
   const slider = find('input', dialog);
   const zoom = find('.zoom', dialog);
   const place = find('output', dialog);
-  let pictures = new Map();
+  let images = new Map();
   let worst = null;
 
   const cut = () => view.style.setProperty('--cut', `${slider.value}%`);
   const show = () => {
-    under.src = pictures.get(right.value).src;
-    over.src = pictures.get(left.value).src;
+    under.src = images.get(right.value).src;
+    over.src = images.get(left.value).src;
     under.alt = `right: ${right.value}`;
     over.alt = `left: ${left.value}`;
   };
@@ -80,10 +80,10 @@ function startComparison(dialog) {
   dialog.addEventListener('change', show);
 
   const open = section => {
-    pictures = picturesOf(section.dataset.scene);
+    images = imagesOf(section.dataset.scene);
     const own = all('img', section).map(image => image.alt);
     for (const select of [left, right]) {
-      select.replaceChildren(...[...pictures.keys()].map(name => new Option(name, name)));
+      select.replaceChildren(...[...images.keys()].map(name => new Option(name, name)));
     }
     left.value = own[0];
     right.value = own[1] ?? own[0];

@@ -148,7 +148,7 @@ class Parts {
     }
     for (const AccuracyScene& other : scenes_) {
       if (other.device != scene_.device || other.limit == scene_.limit) continue;
-      const auto each = accuracy::switched_picture(scene_.cases, other.cases, "viewport");
+      const auto each = accuracy::switched_between(scene_.cases, other.cases, "viewport");
       if (each) add(*each, other.cases[each->to], " (a different image)");
     }
     add("error due to 8-bit output", "", scene_.eight_bits);

@@ -50,7 +50,7 @@ Html needed_section(const PlanData& plan) {
     const auto work = work_of(record.counters);
     const auto level = record.factors.find(factor);
     if (!work || level == record.factors.end()) continue;
-    const std::string scene = picture_title(plan, record);
+    const std::string scene = image_title(plan, record);
     devices[{scene, record.technique, level->second, *work}].insert(record.device);
   }
   if (devices.empty()) return {};

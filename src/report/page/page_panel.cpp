@@ -30,7 +30,7 @@ std::vector<std::string> techniques_of(const SameBits& group) {
 // Describes how an image was drawn. Lists only factors that have fewer levels in the group than in
 // the scene, because the other factors do not distinguish the image from other images of the scene.
 // The technique is left out, because titled() states it.
-std::vector<std::string> made_by(const SameBits& group, const PictureScene& scene) {
+std::vector<std::string> made_by(const SameBits& group, const PanelScene& scene) {
   std::map<std::string, std::set<std::string>> seen;
   std::map<std::string, std::set<std::string>> here;
   for (const record::Record* record : scene.records) {
@@ -48,7 +48,7 @@ std::vector<std::string> made_by(const SameBits& group, const PictureScene& scen
 }
 
 // Returns a name that distinguishes the image from the other images of the scene.
-std::string name_of(const PictureScene& scene, const SameBits& group) {
+std::string name_of(const PanelScene& scene, const SameBits& group) {
   std::string name =
       fmt::format("{}, {}", group.front()->device, fmt::join(techniques_of(group), ", "));
   for (const std::string& difference : made_by(group, scene)) name += ", " + difference;
@@ -57,7 +57,7 @@ std::string name_of(const PictureScene& scene, const SameBits& group) {
 
 // Returns the reference image, or the reason why there is none. For example, the data file may be
 // missing and the store may not contain the reference image.
-std::variant<judge::TruthPair, std::string> truth_or_reason(const PictureSources& sources,
+std::variant<judge::TruthPair, std::string> truth_or_reason(const PanelSources& sources,
                                                             const record::Record& record) {
   try {
     return sources.truth(record);
@@ -66,7 +66,7 @@ std::variant<judge::TruthPair, std::string> truth_or_reason(const PictureSources
   }
 }
 
-Html picture(const Image& image, std::string_view alt) {
+Html image_tag(const Image& image, std::string_view alt) {
   return markup("<img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\">",
                 data_uri(core::encode_png(image)), image.width, image.height, alt);
 }
@@ -92,18 +92,18 @@ Html figure(const Html& content, std::string_view caption) {
 
 // Returns the beginning of a panel, with the attributes used by the filters and by the comparison
 // of images, and with the anchors for links.
-Html opening(const PictureScene& scene, const SameBits& group, const ShareOfBound* shares) {
+Html opening(const PanelScene& scene, const SameBits& group, const ShareOfBound* shares) {
   Html ids;
   std::set<std::string_view> checks;
   for (const record::Record* record : group) {
-    const std::string id = picture_id(scene.plan, record->device, record->configuration);
+    const std::string id = image_id(scene.plan, record->device, record->configuration);
     ids += markup("<span id=\"{}\"></span>", id);
     if (const auto found = scene.sources.judged.find(id); found != scene.sources.judged.end()) {
       checks.insert(found->second.checks.begin(), found->second.checks.end());
     }
   }
   Html text = markup(
-      "<section data-kind=\"picture\" data-device=\"{}\" data-suite=\"{}\" data-check=\"{}\" "
+      "<section data-kind=\"image\" data-device=\"{}\" data-suite=\"{}\" data-check=\"{}\" "
       "data-scene=\"{}\" data-title=\"{}\"",
       group.front()->device, group.front()->suite, fmt::format("{}", fmt::join(checks, " ")),
       scene.number, scene.title + ": " + name_of(scene, group));
@@ -113,10 +113,10 @@ Html opening(const PictureScene& scene, const SameBits& group, const ShareOfBoun
   return text + markup(">") + ids;
 }
 
-Html finding_link(const PictureScene& scene, const SameBits& group) {
+Html finding_link(const PanelScene& scene, const SameBits& group) {
   for (const record::Record* record : group) {
     const auto found =
-        scene.sources.judged.find(picture_id(scene.plan, record->device, record->configuration));
+        scene.sources.judged.find(image_id(scene.plan, record->device, record->configuration));
     if (found == scene.sources.judged.end() || found->second.cause.empty()) continue;
     return markup(" <a href=\"#{}\">finding</a>", found->second.cause);
   }
@@ -125,8 +125,8 @@ Html finding_link(const PictureScene& scene, const SameBits& group) {
 
 // Returns a whole panel. `about` contains the verdict on the image; a description of how the image
 // was drawn follows it.
-Html titled(const PictureScene& scene, const SameBits& group, const Html& figures,
-            const Html& about, const ShareOfBound* shares = nullptr) {
+Html titled(const PanelScene& scene, const SameBits& group, const Html& figures, const Html& about,
+            const ShareOfBound* shares = nullptr) {
   const std::vector<std::string> techniques = techniques_of(group);
   std::string made = fmt::format("technique: {}", fmt::join(techniques, ", "));
   if (techniques.size() > 1) made += ": bit-identical images";
@@ -162,12 +162,12 @@ Html tile(const record::Record& record) {
 
 }  // namespace
 
-Panel panel_of(const PictureScene& scene, const SameBits& group) {
+Panel panel_of(const PanelScene& scene, const SameBits& group) {
   const record::Record& record = *group.front();
   const auto found = truth_or_reason(scene.sources, record);
   const auto* pair = std::get_if<judge::TruthPair>(&found);
   const Html reference =
-      pair ? figure(picture(pair->truth, "the reference image"), "the reference image") : Html();
+      pair ? figure(image_tag(pair->truth, "the reference image"), "the reference image") : Html();
   if (record.image.empty()) {
     return {.html = titled(scene, group, reference + tile(record),
                            markup("<b class=\"regression\">{}</b>", words::text_of(record.reason))),
@@ -175,8 +175,8 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
             .drawn = false};
   }
   const std::string name = name_of(scene, group);
-  const Image image = scene.sources.store.picture(record.image);
-  const Html drawn = figure(picture(image, name), record.device);
+  const Image image = scene.sources.store.decoded_image(record.image);
+  const Html drawn = figure(image_tag(image, name), record.device);
   if (pair == nullptr) {
     return {.html = titled(scene, group, drawn, markup("{}", std::get<std::string>(found)))};
   }
@@ -192,7 +192,7 @@ Panel panel_of(const PictureScene& scene, const SameBits& group) {
     shares.y = result.worst.y;
   }
   const Html difference = figure(
-      ringed(picture(shares.image, "the difference image of " + name), shares), "the difference");
+      ringed(image_tag(shares.image, "the difference image of " + name), shares), "the difference");
   return {.html = titled(scene, group, reference + drawn + difference, verdict_text(result, shares),
                          &shares),
           .wrong = !result.within_bound(),

@@ -14,8 +14,8 @@ namespace triptych::report {
 using SameBits = std::vector<const record::Record*>;
 
 // The data that all panels of a scene have in common. Refers to data that the caller owns.
-struct PictureScene {
-  const PictureSources& sources;
+struct PanelScene {
+  const PanelSources& sources;
   const PlanData& plan;
   const std::vector<const record::Record*>& records;
   std::string title;
@@ -29,6 +29,6 @@ struct Panel {
   double ratio = 0;  // the error of the worst pixel divided by its bound
 };
 
-[[nodiscard]] Panel panel_of(const PictureScene& scene, const SameBits& group);
+[[nodiscard]] Panel panel_of(const PanelScene& scene, const SameBits& group);
 
 }  // namespace triptych::report

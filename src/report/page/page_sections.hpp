@@ -31,13 +31,13 @@ struct Judged {
   // Element id of the first cause that needs attention; empty if there is none.
   std::string cause;
 };
-using JudgedPictures = std::map<std::string, Judged>;  // the key is picture_id()
-[[nodiscard]] JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans);
+using JudgedImages = std::map<std::string, Judged>;  // the key is image_id()
+[[nodiscard]] JudgedImages judged_images(const Overview& all, std::span<const PlanData> plans);
 
-struct PictureSources {
+struct PanelSources {
   const record::Store& store;
   const std::function<judge::TruthPair(const record::Record&)>& truth;
-  const JudgedPictures& judged;
+  const JudgedImages& judged;
 };
 
 // Returns the verdict, with links to its causes.
@@ -48,12 +48,12 @@ struct PictureSources {
 [[nodiscard]] Html findings_section(const Overview& all, std::span<const PlanData> plans);
 // The images of all plans. Wrong images are visible or, if no image is wrong, one image of each
 // scene. All other images are folded.
-struct Pictures {
+struct ImagesSection {
   Html html;
   bool wrong = false;
 };
-[[nodiscard]] Pictures pictures_section(const PictureSources& sources,
-                                        std::span<const PlanData> plans);
+[[nodiscard]] ImagesSection images_section(const PanelSources& sources,
+                                           std::span<const PlanData> plans);
 // Returns whether the page has a panel for the record. The panel shows the image of the record, or
 // states why there is none.
 [[nodiscard]] bool has_tile(const record::Record& record);
@@ -84,8 +84,8 @@ struct Pictures {
 [[nodiscard]] std::string suite_of(const PlanData& plan);
 
 // Returns the element id of the panel for a configuration on a device.
-[[nodiscard]] std::string picture_id(const PlanData& plan, const std::string& device,
-                                     const std::string& configuration);
+[[nodiscard]] std::string image_id(const PlanData& plan, const std::string& device,
+                                   const std::string& configuration);
 
 // Returns the factors that distinguish a record's scene from the other scenes of the plan: "data=…,
 // camera=…". If the plan has only one scene, returns all factors that the configuration names. The
@@ -93,7 +93,7 @@ struct Pictures {
 [[nodiscard]] std::string scene_title(const PlanData& plan, const record::Record& record);
 // Like scene_title(), but without factors that determine only how the image is drawn, not what it
 // shows.
-[[nodiscard]] std::string picture_title(const PlanData& plan, const record::Record& record);
+[[nodiscard]] std::string image_title(const PlanData& plan, const record::Record& record);
 
 // Returns the factors that all scenes of the plan have in common, or "" if there are none.
 [[nodiscard]] std::string common_factors(const PlanData& plan);

@@ -7,7 +7,7 @@
 #include <map>
 #include <set>
 
-#include "record/has_picture.hpp"
+#include "record/has_image.hpp"
 #include "report/html.hpp"
 #include "report/page/charts.hpp"
 #include "report/page/page_frame.hpp"
@@ -74,7 +74,7 @@ Html taken_over(const PlanData& plan) {
 // Returns whether the technique only fetches memory, like speed_of_light, so that its time is a
 // lower bound for the times of other techniques.
 bool is_bound(const record::Record& record) {
-  return !record::has_picture(record) && record.code.empty();
+  return !record::has_image(record) && record.code.empty();
 }
 
 }  // namespace

@@ -172,8 +172,8 @@ Html card(const Overview& all, std::span<const PlanData> plans) {
 Html word_of(const KindRow& row, const Overview& all) {
   const bool work = row.check == judge::Check::counters || row.check == judge::Check::statistics;
   const auto first = std::ranges::find_if(all.open, [&](const Cause& cause) {
-    const bool told_with_picture = work && cause.group.changed_with_it > 0;
-    return cause.group.first->check == row.check || told_with_picture;
+    const bool reported_with_image = work && cause.group.changed_with_it > 0;
+    return cause.group.first->check == row.check || reported_with_image;
   });
   const bool open =
       row.worst == judge::Verdict::regression || row.worst == judge::Verdict::cannot_judge;
@@ -196,7 +196,7 @@ Html bounds(const Overview& all) {
   if (all.bounds.empty()) return {};
   Rows rows{{"plan", "device", "images", "largest error / bound", "configuration"}};
   for (const NearestBound& bound : all.bounds) {
-    rows.push_back({bound.plan, bound.device, fmt::to_string(bound.pictures),
+    rows.push_back({bound.plan, bound.device, fmt::to_string(bound.images),
                     fmt::format("{:.3g}", bound.share), breakable(bound.configuration)});
   }
   return folded("How close images come to their bounds", table(rows));
@@ -206,20 +206,20 @@ const PlanData& plan_of(const Cause& cause, std::span<const PlanData> plans) {
   return *std::ranges::find(plans, cause.result, &PlanData::verdict);
 }
 
-Html picture_link(const PlanData& plan, const Finding& finding) {
+Html image_link(const PlanData& plan, const Finding& finding) {
   const auto drawn = [&](const record::Record& record) {
     return record.device == finding.device && record.configuration == finding.configuration &&
            has_tile(record);
   };
   if (!std::ranges::any_of(plan.records, drawn)) return {};
   return markup(" <a href=\"#{}\">image</a>",
-                picture_id(plan, finding.device, finding.configuration));
+                image_id(plan, finding.device, finding.configuration));
 }
 
 Html links(const Cause& cause, const PlanData& plan) {
   const Finding& first = *cause.group.first;
   if (!is_open(first)) return {};
-  return picture_link(plan, first) + markup(" <a href=\"#verdict\">verdict</a>");
+  return image_link(plan, first) + markup(" <a href=\"#verdict\">verdict</a>");
 }
 
 // Returns the checks for which the filters show the cause. If counters or statistics changed
@@ -340,16 +340,16 @@ Html words_section(const Overview& all) {
   return folded("Meaning of the terms", table(rows));
 }
 
-JudgedPictures judged_pictures(const Overview& all, std::span<const PlanData> plans) {
+JudgedImages judged_images(const Overview& all, std::span<const PlanData> plans) {
   std::map<const Finding*, std::size_t> causes;
   for (std::size_t i = 0; i < all.open.size(); ++i) {
     for (const Finding* member : all.open[i].group.members) causes.emplace(member, i);
   }
-  JudgedPictures judged;
+  JudgedImages judged;
   for (const PlanData& plan : plans) {
     for (const Finding& finding : plan.verdict->findings) {
       if (finding.configuration.empty()) continue;
-      Judged& of = judged[picture_id(plan, finding.device, finding.configuration)];
+      Judged& of = judged[image_id(plan, finding.device, finding.configuration)];
       of.checks.insert(judge::name_of(finding.check));
       const auto cause = causes.find(&finding);
       if (cause != causes.end() && of.cause.empty()) of.cause = cause_id(cause->second);
@@ -362,8 +362,8 @@ std::string suite_of(const PlanData& plan) {
   return plan.records.empty() ? "" : plan.records.front().suite;
 }
 
-std::string picture_id(const PlanData& plan, const std::string& device,
-                       const std::string& configuration) {
+std::string image_id(const PlanData& plan, const std::string& device,
+                     const std::string& configuration) {
   return fmt::format("{}-{}", plan.prefix, core::content_hash(device + '\n' + configuration));
 }
 

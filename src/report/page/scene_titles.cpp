@@ -56,7 +56,7 @@ std::string scene_title(const PlanData& plan, const record::Record& record) {
   return without_shared(plan, named_factors(record.configuration));
 }
 
-std::string picture_title(const PlanData& plan, const record::Record& record) {
+std::string image_title(const PlanData& plan, const record::Record& record) {
   Factors own = named_factors(record.configuration);
   const Factors of_scene = named_factors(record.scene);
   std::erase_if(own, [&](const auto& factor) { return !of_scene.contains(factor.first); });

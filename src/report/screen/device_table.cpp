@@ -29,7 +29,7 @@ std::string text_of(const SideBySide::Cell& cell) {
 // only fetches voxels and draws no image.
 bool is_a_choice(const std::string& technique) {
   return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
-    return each.id == technique && !each.picture;
+    return each.id == technique && !each.draws_image;
   });
 }
 

@@ -5,8 +5,8 @@
 
 namespace triptych::technique {
 
-std::uint64_t visible_ids(const core::Image& picture) {
-  std::vector<std::uint32_t> ids = picture.ids;
+std::uint64_t visible_ids(const core::Image& image) {
+  std::vector<std::uint32_t> ids = image.ids;
   std::ranges::sort(ids);
   const auto repeated = std::ranges::unique(ids);
   ids.erase(repeated.begin(), repeated.end());
@@ -15,7 +15,7 @@ std::uint64_t visible_ids(const core::Image& picture) {
 
 std::map<std::string, std::uint64_t> particle_counts(const CountedFrame& frame,
                                                      std::span<const std::uint32_t> sums,
-                                                     const core::Image& picture) {
+                                                     const core::Image& image) {
   const auto sum = [&](ParticleCounter which) {
     std::uint64_t result = 0;
     for (auto at = static_cast<std::size_t>(which); at < sums.size();
@@ -28,7 +28,7 @@ std::map<std::string, std::uint64_t> particle_counts(const CountedFrame& frame,
     return {{"nodes_visited", sum(ParticleCounter::nodes_visited)},
             {"boxes_tested", sum(ParticleCounter::boxes_tested)},
             {"intersections_tested", sum(ParticleCounter::intersections_tested)},
-            {"visible_ids", visible_ids(picture)}};
+            {"visible_ids", visible_ids(image)}};
   }
   const bool all = frame.culling == Culling::none;
   const std::uint64_t submitted = all ? frame.particles : sum(ParticleCounter::submitted);
@@ -39,7 +39,7 @@ std::map<std::string, std::uint64_t> particle_counts(const CountedFrame& frame,
       {"particles_culled", frame.particles - submitted},
       {"sprites", sum(ParticleCounter::sprites)},
       {"vertices", sum(ParticleCounter::vertices)},
-      {"visible_ids", visible_ids(picture)}};
+      {"visible_ids", visible_ids(image)}};
   if (frame.method == Method::tiles) {
     counts["bin_entries"] = sum(ParticleCounter::bin_entries);
   } else {

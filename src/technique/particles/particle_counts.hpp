@@ -35,7 +35,7 @@ inline constexpr std::size_t particle_counter_bytes =
     particle_counter_rows * particle_counter_columns * sizeof(std::uint32_t);
 
 // Returns the number of distinct particles that are visible in the image.
-[[nodiscard]] std::uint64_t visible_ids(const core::Image& picture);
+[[nodiscard]] std::uint64_t visible_ids(const core::Image& image);
 
 struct CountedFrame {
   Method method = Method::sprites;
@@ -62,6 +62,6 @@ struct CountedFrame {
 //   visible_ids           the number of different particles in the image, for all techniques
 // `sums` contains all rows of the buffer.
 [[nodiscard]] std::map<std::string, std::uint64_t> particle_counts(
-    const CountedFrame& frame, std::span<const std::uint32_t> sums, const core::Image& picture);
+    const CountedFrame& frame, std::span<const std::uint32_t> sums, const core::Image& image);
 
 }  // namespace triptych::technique

@@ -183,7 +183,7 @@ std::vector<std::int32_t> brick_kinds(const BrickRanges& ranges, const scene::Vo
 std::optional<std::string> adapt_reason(std::string_view technique, const scene::VolumeScene& scene,
                                         const RaycastOptions& options) {
   if (!(options.adapt > 0)) return std::nullopt;
-  if (!technique::technique(technique).picture) {
+  if (!technique::technique(technique).draws_image) {
     return fmt::format(
         "the technique {} does not support the factor adapt, because this technique never merges "
         "samples",

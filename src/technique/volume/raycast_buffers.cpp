@@ -26,7 +26,7 @@ RaycastBuffers raycast_buffers(const scene::VolumeScene& scene, const RaycastOpt
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(scene.width) * static_cast<std::uint64_t>(scene.height);
   return {
-      .picture = 4 * word * drawn(scene, options),
+      .image = 4 * word * drawn(scene, options),
       .counters = raycast_counter_stride * word * pixels,
       .bricks = brick_map_bytes(scene.grid->size, brick_layout(scene, options.skip, options.adapt)),
       .table = quadrature_table_bytes(scene.quadrature)};
@@ -39,7 +39,7 @@ std::uint64_t pauses_bytes(const scene::VolumeScene& scene, const RaycastOptions
 std::optional<std::string> buffer_reason(const RaycastBuffers& buffers, std::uint64_t most,
                                          std::string_view limit) {
   for (const auto& [name, bytes] : std::to_array<std::pair<std::string_view, std::uint64_t>>(
-           {{"image", buffers.picture},
+           {{"image", buffers.image},
             {"counters", buffers.counters},
             {"brick map", buffers.bricks},
             {"quadrature table", buffers.table},

@@ -14,13 +14,13 @@ namespace triptych::technique {
 
 // The size of each buffer in bytes.
 struct RaycastBuffers {
-  std::uint64_t picture = 0;   // includes the output of injected work (extra_work.hpp)
+  std::uint64_t image = 0;     // includes the output of injected work (extra_work.hpp)
   std::uint64_t counters = 0;  // needed only for frames with counters
   std::uint64_t bricks = 0;    // one word for each brick; exists even if nothing is skipped
   std::uint64_t table = 0;     // table of the quadrature (quadrature_table.hpp)
   std::uint64_t pauses = 0;    // state of rays, if the volume is drawn in parts (parts.hpp)
 
-  [[nodiscard]] std::uint64_t all() const { return picture + counters + bricks + table + pauses; }
+  [[nodiscard]] std::uint64_t all() const { return image + counters + bricks + table + pauses; }
 };
 // Returns the sizes of all buffers except `pauses`.
 [[nodiscard]] RaycastBuffers raycast_buffers(const scene::VolumeScene& scene,

@@ -160,7 +160,7 @@ std::optional<std::string> raycast_reason(std::string_view technique,
                                           const RaycastOptions& options) {
   const bool midpoint = scene.quadrature == scene::Quadrature::midpoint;
   const std::string_view quadrature = scene::name_of(scene.quadrature);
-  const bool only_fetches = !technique::technique(technique).picture;
+  const bool only_fetches = !technique::technique(technique).draws_image;
   if (only_fetches && !midpoint) {
     return fmt::format(
         "{} requires quadrature=midpoint; with quadrature={}, other techniques fetch and look up "

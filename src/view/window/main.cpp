@@ -117,9 +117,9 @@ class Loop {
       --frames_due_;
       // After a change, several frames are due (frames_due_). Only the last of them is captured,
       // because everything has its final position only then.
-      const auto picture = window_.end_frame(capture && frames_due_ == 0);
-      if (!picture) continue;
-      return core::write_file(core::encode_png(*picture), session_.request().screenshot);
+      const auto captured = window_.end_frame(capture && frames_due_ == 0);
+      if (!captured) continue;
+      return core::write_file(core::encode_png(*captured), session_.request().screenshot);
     }
   }
 

@@ -97,7 +97,7 @@ void explain_pixel(const Column& column, std::pair<int, int> at) {
 
 void Panels::upload(const Column& column, Uploaded& uploaded) {
   if (column.shown && column.shown.get() != uploaded.frame) {
-    if (column.shown->has_image()) uploaded.image.set(column.shown->picture);
+    if (column.shown->has_image()) uploaded.image.set(column.shown->displayed);
     uploaded.frame = column.shown.get();
   }
   if (column.reference && column.reference->error.empty() &&
@@ -106,7 +106,7 @@ void Panels::upload(const Column& column, Uploaded& uploaded) {
     uploaded.reference = column.reference.get();
   }
   if (column.error && column.error.get() != uploaded.error) {
-    uploaded.difference.set(column.error->picture);
+    uploaded.difference.set(column.error->displayed);
     uploaded.error = column.error.get();
   }
 }
@@ -195,7 +195,7 @@ void Panels::draw_error(Session& session, std::size_t index, ImVec2 area) {
   const Column& column = session.columns()[index];
   const Uploaded& uploaded = uploaded_[index];
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const bool shown = column.error && !column.error->picture.rgb.empty();
+  const bool shown = column.error && !column.error->displayed.rgb.empty();
   const Place place =
       shown ? fitted(corner, area, uploaded.difference.width(), uploaded.difference.height())
             : Place{corner, {corner.x + area.x, corner.y + area.y}};

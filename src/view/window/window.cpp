@@ -122,7 +122,7 @@ void Window::begin_frame() const {
   ImGui::NewFrame();
 }
 
-std::optional<core::RgbPicture> Window::end_frame(bool capture) const {
+std::optional<core::RgbImage> Window::end_frame(bool capture) const {
   ImGui::Render();
   int width = 0;
   int height = 0;
@@ -131,21 +131,21 @@ std::optional<core::RgbPicture> Window::end_frame(bool capture) const {
   glClearColor(0, 0, 0, 1);
   glClear(GL_COLOR_BUFFER_BIT);
   ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-  std::optional<core::RgbPicture> picture;
+  std::optional<core::RgbImage> captured;
   if (capture) {
-    picture.emplace(core::RgbPicture{width, height, {}});
+    captured.emplace(core::RgbImage{width, height, {}});
     const std::size_t row = 3 * static_cast<std::size_t>(width);
-    picture->rgb.resize(row * static_cast<std::size_t>(height));
+    captured->rgb.resize(row * static_cast<std::size_t>(height));
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, picture->rgb.data());
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, captured->rgb.data());
     // The first row from OpenGL is the bottom row, so the rows are reversed.
     for (std::size_t top = 0, low = static_cast<std::size_t>(height) - 1; top < low; ++top, --low) {
-      std::swap_ranges(picture->rgb.data() + top * row, picture->rgb.data() + (top + 1) * row,
-                       picture->rgb.data() + low * row);
+      std::swap_ranges(captured->rgb.data() + top * row, captured->rgb.data() + (top + 1) * row,
+                       captured->rgb.data() + low * row);
     }
   }
   glfwSwapBuffers(window_);
-  return picture;
+  return captured;
 }
 
 bool Window::is_reference_key_pressed() const {
@@ -179,10 +179,10 @@ Texture& Texture::operator=(Texture&& other) noexcept {
   return *this;
 }
 
-void Texture::set(const core::RgbPicture& picture) {
-  width_ = picture.width;
-  height_ = picture.height;
-  if (picture.rgb.empty()) return;
+void Texture::set(const core::RgbImage& captured) {
+  width_ = captured.width;
+  height_ = captured.height;
+  if (captured.rgb.empty()) return;
   if (name_ == 0) glGenTextures(1, &name_);
   glBindTexture(GL_TEXTURE_2D, name_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -192,7 +192,7 @@ void Texture::set(const core::RgbPicture& picture) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
   glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
   glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width_, height_, 0, GL_RGB, GL_UNSIGNED_BYTE,
-               picture.rgb.data());
+               captured.rgb.data());
 }
 
 void Texture::draw(ImVec2 from, ImVec2 to) const {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "core/rgb_picture.hpp"
+#include "core/rgb_image.hpp"
 
 struct GLFWwindow;
 
@@ -26,7 +26,7 @@ class Window {
   void wait(std::chrono::milliseconds limit) const;
   void begin_frame() const;
   // Finishes and displays the frame. With `capture`, returns the displayed image.
-  std::optional<core::RgbPicture> end_frame(bool capture) const;
+  std::optional<core::RgbImage> end_frame(bool capture) const;
   [[nodiscard]] bool is_reference_key_pressed() const;
   [[nodiscard]] ImVec2 size() const;
   void copy_to_clipboard(const std::string& text) const;
@@ -48,7 +48,7 @@ class Texture {
   Texture(const Texture&) = delete;
   Texture& operator=(const Texture&) = delete;
 
-  void set(const core::RgbPicture& picture);
+  void set(const core::RgbImage& captured);
   [[nodiscard]] bool is_empty() const noexcept { return width_ == 0; }
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }

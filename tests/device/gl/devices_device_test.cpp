@@ -131,7 +131,7 @@ TEST(GlDevices, ExceededLimitsAreReportedWithBothNumbers) {
     EXPECT_THAT(*large_volume, HasSubstr("1000000x1x1"));
     EXPECT_THAT(*large_volume, HasSubstr(device.info().limits.at("GL_MAX_3D_TEXTURE_SIZE")));
 
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       scene = make_scene({.width = 1'000'000, .height = 1'000});
       EXPECT_TRUE(device.unsupported(make_work(technique, scene)));
       scene = make_scene({.width = 1'000'000, .height = 1});

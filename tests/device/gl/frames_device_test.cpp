@@ -35,14 +35,14 @@ TEST(GlFrames, EveryPurposeDrawsTheSameImage) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view technique : techniques) {
       SCOPED_TRACE(technique);
-      test::expect_one_picture(*device.prepare(make_work(technique, make_scene({}))));
+      test::expect_same_image(*device.prepare(make_work(technique, make_scene({}))));
     }
   });
 }
 
 TEST(GlFrames, CountersAddUp) {
   for_each_device([](measure::Device& device) {
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       const scene::VolumeScene scene = make_scene({});
       const auto count = [&](technique::Skip skip, double ert) {
         technique::RaycastOptions options;

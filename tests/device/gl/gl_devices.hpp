@@ -12,10 +12,10 @@
 
 namespace triptych::gl_backend {
 
+using test::draw_image;
 using test::largest_difference;
 using test::make_scene;
 using test::make_work;
-using test::picture;
 using test::SceneOptions;
 
 // Uses debug contexts, so that a test fails if the driver reports any error message.
@@ -29,6 +29,6 @@ void for_each_device(Check&& check) {
   test::for_each_device_of(*backend_under_test(), std::forward<Check>(check));
 }
 
-inline constexpr std::array<std::string_view, 2> picture_techniques{"raycast", "raycast_fragment"};
+inline constexpr std::array<std::string_view, 2> image_techniques{"raycast", "raycast_fragment"};
 
 }  // namespace triptych::gl_backend

@@ -231,7 +231,7 @@ TEST(GlParticleFrames, InjectedFaultsChangeTheImage) {
   for_each_device([](measure::Device& device) {
     for_each_technique(device, [&](std::string_view technique) {
       const auto draw = [&](const scene::ParticleScene& scene, ParticleFault fault) {
-        return picture(device, particle_work(technique, scene, {.fault = fault})).ids;
+        return draw_image(device, particle_work(technique, scene, {.fault = fault})).ids;
       };
       const auto changes = [&](const scene::ParticleScene& scene, ParticleFault fault) {
         return draw(scene, fault) != draw(scene, ParticleFault::none);
@@ -252,8 +252,8 @@ TEST(GlParticleFrames, ReversedDepthLeavesTheBackground) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("generate:uniform:300");
     for_each_technique(device, [&](std::string_view technique) {
-      const core::Image right = picture(device, particle_work(technique, scene));
-      const core::Image wrong = picture(
+      const core::Image right = draw_image(device, particle_work(technique, scene));
+      const core::Image wrong = draw_image(
           device, particle_work(technique, scene, {.fault = ParticleFault::reversed_depth}));
       for (std::size_t i = 0; i < right.ids.size(); ++i) {
         const bool empty = right.ids[i] == core::Image::no_particle;

@@ -63,7 +63,7 @@ TEST(GlParticles, EveryTechniqueStaysWithinTheBound) {
       for_each_technique(device, [&](std::string_view technique) {
         for (const ComputedAt transfer : {ComputedAt::vertex, ComputedAt::pixel}) {
           EXPECT_EQ(
-              compared(picture(device, particle_work(technique, scene, {.transfer = transfer})),
+              compared(draw_image(device, particle_work(technique, scene, {.transfer = transfer})),
                        truth),
               Wrong{})
               << scene::name_of(colour);
@@ -103,7 +103,7 @@ TEST(GlParticles, AwkwardCamerasLoseNoPixel) {
     for (const auto& [name, scene] : cases) {
       const reference::SphereTruth truth = truth_of(scene);
       for_each_technique(device, [&, &what = name, &shown = scene](std::string_view technique) {
-        EXPECT_EQ(compared(picture(device, particle_work(technique, shown)), truth), Wrong{})
+        EXPECT_EQ(compared(draw_image(device, particle_work(technique, shown)), truth), Wrong{})
             << what;
       });
     }
@@ -120,7 +120,7 @@ TEST(GlParticles, SpheresLargerThanPointsAreDrawn) {
   const reference::SphereTruth truth = truth_of(scene);
   for_each_device([&](measure::Device& device) {
     for_each_technique(device, [&](std::string_view technique) {
-      EXPECT_EQ(compared(picture(device, particle_work(technique, scene)), truth), Wrong{});
+      EXPECT_EQ(compared(draw_image(device, particle_work(technique, scene)), truth), Wrong{});
     });
   });
 }
@@ -149,7 +149,7 @@ TEST(GlParticles, RaysComputedAtVerticesStayWithinTheirBound) {
     for_each_technique(device, [&](std::string_view technique) {
       const measure::Work work = particle_work(technique, scene, {.ray = ComputedAt::vertex});
       if (device.unsupported(work)) return;
-      EXPECT_EQ(compared(picture(device, work), truth), Wrong{});
+      EXPECT_EQ(compared(draw_image(device, work), truth), Wrong{});
     });
   });
 }
@@ -158,9 +158,9 @@ TEST(GlParticles, AllTechniquesAreBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const char* data : {"generate:uniform:3000", "generate:coincident:800"}) {
       const scene::ParticleScene scene = generated(data);
-      const core::Image first = picture(device, particle_work("quad_screen", scene));
+      const core::Image first = draw_image(device, particle_work("quad_screen", scene));
       for_each_technique(device, [&](std::string_view technique) {
-        EXPECT_EQ(picture(device, particle_work(technique, scene)), first) << data;
+        EXPECT_EQ(draw_image(device, particle_work(technique, scene)), first) << data;
       });
     }
   });
@@ -172,7 +172,7 @@ TEST(GlParticles, OptionsWithoutEffectOnTheImageAreBitIdentical) {
         generated("generate:plume:5000", ColourKind::rgba8, "path_y:3/4");
     for_each_technique(device, [&](std::string_view technique) {
       const core::Image plain =
-          picture(device, particle_work(technique, scene, {.culling = Culling::none}));
+          draw_image(device, particle_work(technique, scene, {.culling = Culling::none}));
       for (const ParticleOptions& options :
            {ParticleOptions{.culling = Culling::frustum},
             {.conservative_depth = true},
@@ -182,7 +182,7 @@ TEST(GlParticles, OptionsWithoutEffectOnTheImageAreBitIdentical) {
             {.extra_work_stride = 4},
             {.culling = Culling::occlusion, .extra_work_stride = 5},
             {.culling = Culling::none, .extra_work_stride = 3}}) {
-        EXPECT_EQ(picture(device, particle_work(technique, scene, options)), plain);
+        EXPECT_EQ(draw_image(device, particle_work(technique, scene, options)), plain);
       }
     });
   });
@@ -195,7 +195,7 @@ TEST(GlParticles, CullingHiddenCellsIsBitIdentical) {
     scene.radius_scale = 2.5;
     scene.width = scene.height = 128;
     const core::Image plain =
-        picture(device, particle_work("quad_ray", scene, {.culling = Culling::none}));
+        draw_image(device, particle_work("quad_ray", scene, {.culling = Culling::none}));
     for_each_technique(device, [&](std::string_view technique) {
       const auto prepared =
           device.prepare(particle_work(technique, scene, {.culling = Culling::occlusion}));
@@ -221,7 +221,7 @@ TEST(GlParticles, ScenesWithNoOrFewParticles) {
       for (const std::vector<std::array<double, 4>>& spheres :
            {std::vector<std::array<double, 4>>{}, {{0, 0, 5, 1}}}) {
         const core::Image image =
-            picture(device, particle_work(technique, seen_from(spheres, {0, 0, 0}, 60)));
+            draw_image(device, particle_work(technique, seen_from(spheres, {0, 0, 0}, 60)));
         for (std::size_t i = 0; i < image.pixel_count(); ++i) {
           ASSERT_EQ(image.rgba[4 * i + 2], 0.3F);
           ASSERT_EQ(image.ids[i], core::Image::no_particle);
@@ -230,7 +230,7 @@ TEST(GlParticles, ScenesWithNoOrFewParticles) {
       }
       for (const int count : {1, 63, 64, 65}) {
         const scene::ParticleScene scene = generated(fmt::format("generate:uniform:{}", count));
-        EXPECT_EQ(compared(picture(device, particle_work(technique, scene)), truth_of(scene)),
+        EXPECT_EQ(compared(draw_image(device, particle_work(technique, scene)), truth_of(scene)),
                   Wrong{})
             << count;
       }

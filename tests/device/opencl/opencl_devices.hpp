@@ -10,10 +10,10 @@
 
 namespace triptych::opencl_backend {
 
+using test::draw_image;
 using test::largest_difference;
 using test::make_scene;
 using test::make_work;
-using test::picture;
 using test::SceneOptions;
 
 // Sets the environment in which Triptych starts its workers. Without it, PoCL runs small launches

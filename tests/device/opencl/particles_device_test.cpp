@@ -31,10 +31,10 @@ scene::ParticleScene small_and_large() {
 TEST(OpenClParticles, SmallAndLargeParticlesMixCorrectly) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = small_and_large();
-    const core::Image first = picture(device, make_work("tiles", scene));
+    const core::Image first = draw_image(device, make_work("tiles", scene));
     EXPECT_EQ(wrong_pixels(first, truth_of(scene)), 0);
     for (const std::string_view technique : particle_techniques) {
-      EXPECT_EQ(picture(device, make_work(technique, scene)), first) << technique;
+      EXPECT_EQ(draw_image(device, make_work(technique, scene)), first) << technique;
     }
   });
 }
@@ -83,7 +83,7 @@ TEST(OpenClParticles, OcclusionCullsCellsAndIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     const scene::ParticleScene scene = generated("uniform", 60000, "orbit_y:1/8", 128);
     for (const std::string_view technique : {"tiles", "polygon_adaptive"}) {
-      const core::Image plain = picture(device, make_work(technique, scene));
+      const core::Image plain = draw_image(device, make_work(technique, scene));
       const auto prepared =
           device.prepare(make_work(technique, scene, {.culling = Culling::occlusion}));
       for (int frame = 0; frame < 3; ++frame) {
@@ -165,7 +165,7 @@ TEST(OpenClParticles, InjectedFaultsChangeTheImage) {
       for (std::size_t i = 0; i < scenes.size(); ++i) {
         const measure::Work work = make_work(each.technique, scenes[i], options);
         ASSERT_EQ(device.unsupported(work), std::nullopt);
-        wrong += wrong_pixels(picture(device, work), truths[i]);
+        wrong += wrong_pixels(draw_image(device, work), truths[i]);
       }
       EXPECT_EQ(wrong > 0, each.fault != ParticleFault::none) << wrong;
     }
@@ -205,7 +205,8 @@ TEST(OpenClParticles, NoParticlesGiveTheBackground) {
     for (const Spheres& spheres : {Spheres{}, Spheres{{0, 0, 5, 1}}}) {
       for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
         const scene::ParticleScene scene = seen_from(spheres, {0, 0, 0}, 60, 33, 17);
-        const core::Image image = picture(device, make_work("tiles", scene, {.culling = culling}));
+        const core::Image image =
+            draw_image(device, make_work("tiles", scene, {.culling = culling}));
         EXPECT_EQ(image.pixel(32, 16), scene.background);
         EXPECT_EQ(std::ranges::count(image.ids, core::Image::no_particle), 33 * 17);
         EXPECT_EQ(std::ranges::count(image.depth, std::numeric_limits<float>::infinity()), 33 * 17);

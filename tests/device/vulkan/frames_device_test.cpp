@@ -50,7 +50,7 @@ TEST(VulkanFrames, CountersMatchTheHost) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.camera = "random:4", .step_voxels = 0.3});
     const Lattice expected = count_lattice(scene);
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       const record::Counts counts =
           counters(device, technique, scene, {.skip = Skip::none, .ert = 0});
       EXPECT_EQ(counts.at("rays"),
@@ -70,7 +70,7 @@ TEST(VulkanFrames, CountersMatchTheHost) {
 TEST(VulkanFrames, OnlyInvisibleSamplesAreSkipped) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.data = "generate:sparse_field:48"});
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       const auto brute = counters(device, technique, scene, {.skip = Skip::none, .ert = 0});
       const auto skipped = counters(device, technique, scene, {.skip = Skip::bricks, .ert = 0});
       EXPECT_EQ(skipped.at("samples") + skipped.at("samples_saved"), brute.at("samples"));
@@ -155,8 +155,8 @@ TEST(VulkanFrames, DeviceTimeCoversTheWholeRenderPass) {
 
 TEST(VulkanFrames, PurposeAndExtraWorkLeaveTheImageUnchanged) {
   for_each_device([](measure::Device& device) {
-    for (const std::string_view technique : picture_techniques) {
-      const core::Image plain = picture(device, make_work(technique, make_scene()));
+    for (const std::string_view technique : image_techniques) {
+      const core::Image plain = draw_image(device, make_work(technique, make_scene()));
       for (const int stride : {1, 3, 33, 1000}) {
         const auto prepared =
             device.prepare(make_work(technique, make_scene(), {.extra_work_stride = stride}));

@@ -94,14 +94,14 @@ int wrong_pixels(const core::Image& image, const reference::SphereTruth& truth) 
 void expect_truth(measure::Device& device, const scene::ParticleScene& scene,
                   const ParticleOptions& options, const std::string& what) {
   const reference::SphereTruth truth = reference::render_spheres(scene, bounds, 1);
-  const core::Image first = picture(device, particle_work(techniques[0], scene, options));
+  const core::Image first = draw_image(device, particle_work(techniques[0], scene, options));
   for (const std::string_view technique : techniques) {
     const measure::Work work = particle_work(technique, scene, options);
     if (technique::option_reason(technique, options, technique::SpriteRasterizer::of_the_api)) {
       EXPECT_TRUE(device.unsupported(work)) << technique << ' ' << what;
       continue;
     }
-    const core::Image image = picture(device, work);
+    const core::Image image = draw_image(device, work);
     EXPECT_EQ(wrong_pixels(image, truth), 0) << technique << ' ' << what;
     if (options.ray == technique::ComputedAt::pixel) {
       EXPECT_EQ(image.ids, first.ids) << technique << ' ' << what;
@@ -155,9 +155,9 @@ TEST(VulkanParticles, ColoursStagesAndCornersLeaveIdsUnchanged) {
         const ParticleOptions options{.transfer = transfer,
                                       .conservative_depth = transfer == ComputedAt::pixel};
         expect_truth(device, scene, options, "colours");
-        const core::Image first = picture(device, particle_work("quad_ray", scene, options));
+        const core::Image first = draw_image(device, particle_work("quad_ray", scene, options));
         for (const std::string_view technique : techniques) {
-          const core::Image image = picture(device, particle_work(technique, scene, options));
+          const core::Image image = draw_image(device, particle_work(technique, scene, options));
           for (std::size_t i = 0; i < image.rgba.size(); ++i) {
             ASSERT_NEAR(image.rgba[i], first.rgba.at(i), 1e-5) << technique;
           }
@@ -168,8 +168,8 @@ TEST(VulkanParticles, ColoursStagesAndCornersLeaveIdsUnchanged) {
     expect_truth(device, scene, {.ray = ComputedAt::vertex}, "rays at vertices");
     for (const int corners : {4, 5, 6, 7, 8, 16, 32}) {
       const core::Image image =
-          picture(device, particle_work("polygon_tess", scene, {.corners = corners}));
-      EXPECT_EQ(image.ids, picture(device, particle_work("quad_ray", scene, {})).ids) << corners;
+          draw_image(device, particle_work("polygon_tess", scene, {.corners = corners}));
+      EXPECT_EQ(image.ids, draw_image(device, particle_work("quad_ray", scene, {})).ids) << corners;
     }
   });
 }
@@ -274,7 +274,7 @@ TEST(VulkanParticles, StatisticsCoverExactlyTheStagesInUse) {
 int pixels_wrong_by(measure::Device& device, std::string_view technique,
                     const scene::ParticleScene& scene, ParticleFault fault) {
   const reference::SphereTruth truth = reference::render_spheres(scene, bounds, 1);
-  return wrong_pixels(picture(device, particle_work(technique, scene, {.fault = fault})), truth);
+  return wrong_pixels(draw_image(device, particle_work(technique, scene, {.fault = fault})), truth);
 }
 
 TEST(VulkanParticles, InjectedFaultsChangeTheImage) {

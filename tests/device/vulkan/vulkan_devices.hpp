@@ -13,14 +13,14 @@
 
 namespace triptych::vulkan_backend {
 
+using test::draw_image;
 using test::largest_difference;
 using test::make_scene;
 using test::make_work;
-using test::picture;
 using test::SceneOptions;
 
 // The volume techniques that draw an image.
-inline constexpr std::array<std::string_view, 2> picture_techniques{"raycast", "raycast_fragment"};
+inline constexpr std::array<std::string_view, 2> image_techniques{"raycast", "raycast_fragment"};
 
 // Enables the validation layer if it is installed, so that a test fails if the layer reports
 // anything.

@@ -72,7 +72,7 @@ TEST(ShortenedStep, IsUnchangedIfItMeetsTheErrorAndEndsAtTheShortest) {
 
 TEST(SearchSize, KeepsRaysOnBothAxes) {
   const auto size = [](int width, int height) {
-    const PictureSize found = search_size({width, height});
+    const ImageSize found = search_size({width, height});
     return std::pair(found.width, found.height);
   };
   EXPECT_EQ(size(48, 48), std::pair(48, 48));
@@ -103,14 +103,14 @@ TEST(RequestedError, IsParsedWithItsMetric) {
   }
 }
 
-TEST(PictureErrors, ContainEveryMetric) {
+TEST(ErrorsByMetric, ContainEveryMetric) {
   core::Image limit(100, 20);
-  core::Image picture = limit;
+  core::Image image = limit;
   for (std::size_t i = 0; i < 20; ++i) limit.rgba[4 * i] = 0.5F;
   // The first pixel has an error of 0.5, because it is 1 instead of 0.5. The next 19 pixels have
   // the same error, because they are 0 instead of 0.5.
-  picture.rgba[0] = 1.0F;
-  const PictureErrors errors = errors_against(limit, picture);
+  image.rgba[0] = 1.0F;
+  const ErrorsByMetric errors = errors_against(limit, image);
   EXPECT_EQ(errors.covered, 20U);
   EXPECT_DOUBLE_EQ(errors.of(Metric::max), 0.5);
   EXPECT_DOUBLE_EQ(errors.of(Metric::p99_9), 0.5);
@@ -118,8 +118,8 @@ TEST(PictureErrors, ContainEveryMetric) {
   EXPECT_DOUBLE_EQ(errors.of(Metric::covered), 0.25);
   EXPECT_DOUBLE_EQ(errors_of_nothing(limit).of(Metric::covered), 0.25);
   EXPECT_EQ(errors_of_nothing(core::Image(3, 3)).of(Metric::covered), 0);
-  picture.rgba[7] = std::nanf("");
-  EXPECT_TRUE(std::isnan(errors_against(limit, picture).of(Metric::rms)));
+  image.rgba[7] = std::nanf("");
+  EXPECT_TRUE(std::isnan(errors_against(limit, image).of(Metric::rms)));
   EXPECT_TRUE(std::isnan(errors_against(limit, core::Image(3, 3)).of(Metric::max)));
 }
 

@@ -152,18 +152,18 @@ TEST(SwitchedAlone, UsesTheBestCaseWithACounterpart) {
   EXPECT_EQ(switched[0].to, 2U);
 }
 
-TEST(SwitchedPicture, FindsTheCounterpartInAnotherScene) {
+TEST(SwitchedBetween, FindsTheCounterpartInAnotherScene) {
   std::vector<AccuracyCase> cases{at(9, 1, 0.5), at(5, 2, 1)};
   std::vector<AccuracyCase> others{at(5, 3, 1), at(9, 4, 0.25)};
   for (AccuracyCase& each : cases) each.factors["viewport"] = "48";
   for (AccuracyCase& each : others) each.factors["viewport"] = "96";
-  const auto found = switched_picture(cases, others, "viewport");
+  const auto found = switched_between(cases, others, "viewport");
   ASSERT_TRUE(found);
   // The most accurate case has step 0.5, which the other scene lacks. Therefore the cases with step
   // 1 are chosen.
   EXPECT_EQ(found->from, 1U);
   EXPECT_EQ(found->to, 0U);
-  EXPECT_FALSE(switched_picture(cases, others, "step"));
+  EXPECT_FALSE(switched_between(cases, others, "step"));
 }
 
 // Errors and orders need no times. Fronts and times to an error contain only cases that have times.

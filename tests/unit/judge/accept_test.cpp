@@ -225,8 +225,8 @@ TEST_F(AcceptTest, ImagesAndTimesAreStoredIfThePlanChecksThem) {
   EXPECT_FALSE(std::filesystem::exists(baseline("images")));
   EXPECT_TRUE(std::filesystem::exists(baseline("timings")));
   checks_ = {Check::image};
-  add_run("pictures");
-  (void)accept_run("pictures");
+  add_run("images");
+  (void)accept_run("images");
   EXPECT_FALSE(std::filesystem::exists(baseline("images")));
   EXPECT_FALSE(std::filesystem::exists(baseline("timings")));
   EXPECT_EQ(read(baseline("images.json"))[front_]["reference"].size(), 2U);

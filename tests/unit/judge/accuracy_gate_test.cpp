@@ -32,8 +32,8 @@ class AccuracyGateTest : public JudgeTest {
     request_.limit = [this](const record::Record& record) { return limit_of(record); };
   }
 
-  const accuracy::LimitPicture* limit_of(const record::Record& record) {
-    accuracy::LimitPicture& limit = limits_[record.scene];
+  const accuracy::LimitImage* limit_of(const record::Record& record) {
+    accuracy::LimitImage& limit = limits_[record.scene];
     limit.key = record.scene;
     limit.image = shifted(truth_of(record.scene), lattice);
     return &limit;
@@ -91,20 +91,20 @@ class AccuracyGateTest : public JudgeTest {
   static constexpr const char* of_steps = "vulkan:lavapipe";
 
  private:
-  std::map<std::string, accuracy::LimitPicture> limits_;
+  std::map<std::string, accuracy::LimitImage> limits_;
 };
 
 TEST_F(AccuracyGateTest, SplitsTheErrorWithTheReferenceImage) {
   const core::Image truth = truth_of(front_);
-  const auto error = accuracy::picture_error(shifted(truth, 0.25F), truth, shifted(truth, 0.75F));
+  const auto error = accuracy::limit_errors(shifted(truth, 0.25F), truth, shifted(truth, 0.75F));
   ASSERT_TRUE(error);
   EXPECT_NEAR(error->arithmetic, 0.25, 1e-6);
   EXPECT_NEAR(error->lattice, 0.75, 1e-6);
   EXPECT_NEAR(error->rmse, 0.5, 1e-6);
   EXPECT_NEAR(error->largest, 0.5, 1e-6);
   EXPECT_NEAR(error->error_99, 0.5, 1e-6);
-  EXPECT_FALSE(accuracy::picture_error(truth, truth, core::Image(1, 1)));
-  EXPECT_FALSE(accuracy::picture_error(shifted(truth, std::nanf("")), truth, truth));
+  EXPECT_FALSE(accuracy::limit_errors(truth, truth, core::Image(1, 1)));
+  EXPECT_FALSE(accuracy::limit_errors(shifted(truth, std::nanf("")), truth, truth));
 }
 
 TEST_F(AccuracyGateTest, AcceptedErrorsPass) {
@@ -235,7 +235,7 @@ TEST_F(AccuracyGateTest, ConfigurationsThatCannotBeJudgedAreReported) {
   const auto is_meant = [](const record::Record& record) {
     return record.device == of_steps && record.configuration == plain_;
   };
-  const auto copy_with_picture = [&](const std::string& run, const std::string& hash) {
+  const auto copy_with_image = [&](const std::string& run, const std::string& hash) {
     store_.add_run({run, plan, "2026-02-02T00:00:00Z", {}});
     for (const auto& entry : store_.devices("a")) store_.add_device(run, entry.device, {});
     for (record::Record record : store_.records("a")) {
@@ -251,9 +251,9 @@ TEST_F(AccuracyGateTest, ConfigurationsThatCannotBeJudgedAreReported) {
     EXPECT_EQ(findings.size(), 1U) << text(result);
     return findings.empty() ? Cause::none : findings[0].cause;
   };
-  copy_with_picture("lost", "0123");
+  copy_with_image("lost", "0123");
   EXPECT_EQ(undecided("lost"), Cause::unknown_error);
-  copy_with_picture("without", "");
+  copy_with_image("without", "");
   EXPECT_EQ(undecided("without"), Cause::no_image);
   request_.limit = [&](const record::Record& record) {
     return is_meant(record) ? nullptr : limit_of(record);

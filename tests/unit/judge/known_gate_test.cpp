@@ -204,9 +204,9 @@ TEST_F(KnownGateTest, EachCheckCanBeAFlakeByItself) {
   const GateResult first = gate("b");
   const Redrawn redrawn = tell_flakes(first, gate("c"), failing(first));
   EXPECT_THAT(redrawn.flakes, SizeIs(1));
-  const auto pictures = with(redrawn.result, Verdict::regression, Check::image);
-  ASSERT_THAT(pictures, SizeIs(1));
-  EXPECT_EQ(pictures[0].drawn_again, Again::flake);
+  const auto images = with(redrawn.result, Verdict::regression, Check::image);
+  ASSERT_THAT(images, SizeIs(1));
+  EXPECT_EQ(images[0].drawn_again, Again::flake);
   const auto counters = with(redrawn.result, Verdict::regression, Check::counters);
   ASSERT_THAT(counters, SizeIs(1));
   EXPECT_EQ(counters[0].drawn_again, Again::not_drawn);

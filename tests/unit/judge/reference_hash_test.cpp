@@ -10,7 +10,7 @@
 namespace triptych::judge {
 namespace {
 
-core::Image picture(std::uint64_t seed) {
+core::Image make_image(std::uint64_t seed) {
   core::Random random(seed);
   core::Image image(64, 64);
   for (float& value : image.rgba) value = static_cast<float>(random.uniform());
@@ -22,7 +22,7 @@ core::Image picture(std::uint64_t seed) {
 TEST(ReferenceHash, LastBitsDoNotChangeTheHash) {
   int same = 0;
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    const core::Image image = picture(seed);
+    const core::Image image = make_image(seed);
     core::Image other = image;
     core::Random random(1000 + seed);
     // After rounding to floats, a different math library changes about one value in a few thousand.
@@ -36,7 +36,7 @@ TEST(ReferenceHash, LastBitsDoNotChangeTheHash) {
 }
 
 TEST(ReferenceHash, OneVisiblyDifferentPixelChangesTheHash) {
-  const core::Image image = picture(1);
+  const core::Image image = make_image(1);
   for (const std::size_t at : {0UL, 77UL, image.rgba.size() - 1}) {
     core::Image other = image;
     other.rgba[at] += 1.0F / 4000;
@@ -45,7 +45,7 @@ TEST(ReferenceHash, OneVisiblyDifferentPixelChangesTheHash) {
 }
 
 TEST(ReferenceHash, ASmallChangeOfAllPixelsChangesTheHash) {
-  const core::Image image = picture(1);
+  const core::Image image = make_image(1);
   core::Image other = image;
   for (float& value : other.rgba) value += 1e-6F;
   EXPECT_FALSE(is_same_reference(reference_hash(image), reference_hash(other)));

@@ -60,7 +60,7 @@ class StressGateTest : public JudgeTest {
   void expect_the_bits_of_an_absent_configuration() {
     expected_ = [](const record::Record&) {
       return std::vector<record::Expectation>{
-          {"the bits with another skip", record::SamePicture{.changed = {{"skip", "distance"}}}}};
+          {"the bits with another skip", record::SameImage{.changed = {{"skip", "distance"}}}}};
     };
   }
 
@@ -183,7 +183,7 @@ TEST_F(StressGateTest, DifferentBitsLoseAPoint) {
     std::vector<record::Expectation> result;
     if (record.configuration.find("skip=") == std::string::npos) {
       result.push_back(
-          {"the bits with bricks", record::SamePicture{.changed = {{"skip", "bricks"}}}});
+          {"the bits with bricks", record::SameImage{.changed = {{"skip", "bricks"}}}});
     }
     return result;
   };
@@ -288,7 +288,7 @@ class ExpectationTest : public JudgeTest {
 
   // Judges the image of the first record by this rule. Returns an observation that states why the
   // rule is not met. If it is met, the cause of the observation is Cause::none.
-  Observation judge(const record::SamePicture& rule) {
+  Observation judge(const record::SameImage& rule) {
     StressRun run(store_, records_);
     const auto what = unmet({"a test", rule}, records_.front(), run, [](const record::Record&) {
       TruthPair pair{core::Image(width, height), core::Image(width, height)};
@@ -298,9 +298,7 @@ class ExpectationTest : public JudgeTest {
     return what.value_or(Observation{});
   }
   // Returns the number of pixels that differ.
-  double differing(const record::SamePicture& rule) {
-    return judge(rule).number("pixels_differing");
-  }
+  double differing(const record::SameImage& rule) { return judge(rule).number("pixels_differing"); }
 
   std::vector<record::Record> records_;
 };

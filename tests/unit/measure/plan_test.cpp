@@ -311,9 +311,9 @@ TEST_F(PlanTest, ChecksDetermineWhatIsMeasured) {
   const Plan counted = load("suite: fake\nchecks: [memory, cost]\n");
   EXPECT_FALSE(counted.timed());
   EXPECT_TRUE(counted.counted());
-  EXPECT_TRUE(standard.judges_pictures());
+  EXPECT_TRUE(standard.judges_images());
   EXPECT_TRUE(standard.judges_counters());
-  EXPECT_FALSE(counted.judges_pictures());
+  EXPECT_FALSE(counted.judges_images());
 }
 
 TEST_F(PlanTest, InvalidAndMutuallyExclusiveChecks) {

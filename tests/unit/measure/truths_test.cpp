@@ -157,7 +157,7 @@ TEST_F(TruthsTest, LimitImagesAreStoredToo) {
   record::Store first = store();
   Truths fresh = truths(first);
   EXPECT_EQ(fresh.limit_of(record_with("2")), nullptr);
-  const accuracy::LimitPicture* limit = fresh.limit_of(record_with("1"));
+  const accuracy::LimitImage* limit = fresh.limit_of(record_with("1"));
   ASSERT_NE(limit, nullptr);
   EXPECT_EQ(limit->image.width, 3);
   EXPECT_EQ(fresh.limit_of(record_with("0.5")), limit);

@@ -19,7 +19,7 @@ Work volume_over(float background) {
   return {.technique = "raycast", .scene = volume};
 }
 
-core::Image picture(const std::vector<float>& alphas) {
+core::Image make_image(const std::vector<float>& alphas) {
   core::Image image;
   image.width = static_cast<int>(alphas.size());
   image.height = 1;
@@ -28,20 +28,20 @@ core::Image picture(const std::vector<float>& alphas) {
 }
 
 TEST(LeastTransmittance, FollowsFromTheVisibleBackground) {
-  EXPECT_NEAR(least_transmittance(volume_over(0), picture({0.25F, 0.75F, 0.5F})), 0.25, 1e-6);
+  EXPECT_NEAR(least_transmittance(volume_over(0), make_image({0.25F, 0.75F, 0.5F})), 0.25, 1e-6);
   // The background has the opacity 0.25. If T is the transmittance of the volume in front of it,
   // the pixel has the opacity 1 − T + T·0.25. For the opacity 0.85, T is 0.2.
-  EXPECT_NEAR(least_transmittance(volume_over(0.25F), picture({0.25F, 0.85F})), 0.2, 1e-6);
+  EXPECT_NEAR(least_transmittance(volume_over(0.25F), make_image({0.25F, 0.85F})), 0.2, 1e-6);
 }
 
 TEST(LeastTransmittance, IsZeroIfItCannotBeDetermined) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(least_transmittance(volume_over(1), picture({0.5F})), 0);
-  EXPECT_EQ(least_transmittance(volume_over(0), picture({1.0F})), 0);
-  EXPECT_EQ(least_transmittance(volume_over(0), picture({0.5F, nan, 0.1F})), 0);
-  EXPECT_EQ(least_transmittance(volume_over(0), picture({})), 0);
-  EXPECT_EQ(least_transmittance({.technique = "tiles", .scene = ParticleWork{}}, picture({0.5F})),
-            0);
+  EXPECT_EQ(least_transmittance(volume_over(1), make_image({0.5F})), 0);
+  EXPECT_EQ(least_transmittance(volume_over(0), make_image({1.0F})), 0);
+  EXPECT_EQ(least_transmittance(volume_over(0), make_image({0.5F, nan, 0.1F})), 0);
+  EXPECT_EQ(least_transmittance(volume_over(0), make_image({})), 0);
+  EXPECT_EQ(
+      least_transmittance({.technique = "tiles", .scene = ParticleWork{}}, make_image({0.5F})), 0);
 }
 
 class EquivalentsOf : public testing::Test {
@@ -49,7 +49,7 @@ class EquivalentsOf : public testing::Test {
   static PlainWork plain(const std::string& step, double ends_below) {
     return {.levels = {{"step", step}}, .ends_below = ends_below};
   }
-  EquivalentsOf() { equivalents.add(plain("1", 0), "first", volume_over(0), picture({0.75F})); }
+  EquivalentsOf() { equivalents.add(plain("1", 0), "first", volume_over(0), make_image({0.75F})); }
   Equivalents equivalents;
 };
 
@@ -63,7 +63,7 @@ TEST_F(EquivalentsOf, EarlyTerminationThatNoRayReachesIsEquivalent) {
 }
 
 TEST_F(EquivalentsOf, TerminatedRaysProveNothingAboutLowerThresholds) {
-  equivalents.add(plain("2", 0.3), "second", volume_over(0), picture({0.75F}));
+  equivalents.add(plain("2", 0.3), "second", volume_over(0), make_image({0.75F}));
   EXPECT_FALSE(equivalents.find(plain("2", 0)));
   EXPECT_TRUE(equivalents.find(plain("2", 0.3)));
 }

@@ -54,7 +54,7 @@ TEST(FrameProof, FindsFramesOfStatisticsCountersAndTheLoopThatAreNotDrawn) {
 
 TEST(FrameProof, FindsAFrameThatDrawsSomethingElse) {
   ScriptedPrepared prepared = steady(50 * ms);
-  prepared.picture = [](int n) { return n == warm_up + timed ? 0.5F : 1.0F; };
+  prepared.value_of_frame = [](int n) { return n == warm_up + timed ? 0.5F : 1.0F; };
   EXPECT_THROW(measure_all(prepared), NotDrawn);
 }
 
@@ -78,7 +78,7 @@ TEST(FrameProof, DrawsMoreFramesBeforeItReportsALoop) {
 TEST(FrameProof, FramesAfterAJumpMayDifferButNotBeMissing) {
   const Protocol jumping{.timed = false, .camera_jumps = true};
   ScriptedPrepared differing = steady(50 * ms);
-  differing.picture = [](int n) { return static_cast<float>(n); };
+  differing.value_of_frame = [](int n) { return static_cast<float>(n); };
   EXPECT_NO_THROW(measure_all(differing, jumping));
   ScriptedPrepared missing = steady(50 * ms);
   missing.draws = [](int n) { return n == 1; };
@@ -99,7 +99,7 @@ TEST(FrameProof, AcceptsNaNsThatAFrameComputed) {
   // The NaN that an x86 CPU computes for 0/0.
   static constexpr std::uint32_t computed_nan = 0xFFC00000;
   ScriptedPrepared prepared = steady(50 * ms);
-  prepared.picture = [](int) { return std::bit_cast<float>(computed_nan); };
+  prepared.value_of_frame = [](int) { return std::bit_cast<float>(computed_nan); };
   EXPECT_NO_THROW(measure_all(prepared));
   prepared.draws = [](int n) { return n == 1; };
   EXPECT_THROW(measure_all(prepared), NotDrawn);

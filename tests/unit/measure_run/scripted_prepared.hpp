@@ -27,7 +27,7 @@ class ScriptedPrepared final : public Prepared {
                        : purpose == Purpose::statistics ? "statistics"
                                                         : "counters");
     Frame frame = script_(frames_++);
-    if (draws(frames_)) image_ = filled(picture(frames_));
+    if (draws(frames_)) image_ = filled(value_of_frame(frames_));
     if (purpose == Purpose::statistics) frame.counts = {{"compute_invocations", 64}};
     if (purpose == Purpose::counters) frame.counts = {{"samples", 512}, {"rays_hit", 64}};
     return frame;
@@ -42,7 +42,7 @@ class ScriptedPrepared final : public Prepared {
   std::vector<std::string> calls;
   // Whether frame n (1-based) writes an image, and the value of that image's pixels.
   std::function<bool(int n)> draws = [](int) { return true; };
-  std::function<float(int n)> picture = [](int) { return 1.0F; };
+  std::function<float(int n)> value_of_frame = [](int) { return 1.0F; };
 
  private:
   static core::Image filled(float value) {

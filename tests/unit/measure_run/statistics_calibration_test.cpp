@@ -45,9 +45,9 @@ bool is_one_sprite(const Work& work) {
 record::Counts exact_counts(const Work& work) {
   for (const technique::Work kind : {technique::Work::compute, technique::Work::draw}) {
     for (const CalibrationScene& scene : calibration_scenes(kind)) {
-      const bool same_picture = scene.work.technique == work.technique &&
-                                is_one_sprite(scene.work) == is_one_sprite(work);
-      if (!same_picture) continue;
+      const bool same_image = scene.work.technique == work.technique &&
+                              is_one_sprite(scene.work) == is_one_sprite(work);
+      if (!same_image) continue;
       if (const auto* volume = std::get_if<VolumeWork>(&work.scene);
           volume != nullptr &&
           volume->scene.width != std::get<VolumeWork>(scene.work.scene).scene.width) {

@@ -102,7 +102,7 @@ TEST(StressScenes, FromInsideOnlyTheEnclosingSphereIsVisible) {
   }
 }
 
-TEST(StressScenes, TheHorizonCrossesThePicture) {
+TEST(StressScenes, TheHorizonCrossesTheImage) {
   for (const char* distance : {"1.0001", "1.0006"}) {
     const Seen seen = see(fmt::format("stress:skimming:{}", distance));
     EXPECT_GT(seen.truth.coverage, 0.3);

@@ -117,7 +117,7 @@ TEST(StressSuite, TiedVariantsNameTheOneTheyAreTiedTo) {
   EXPECT_TRUE(expected("generate:uniform:10").empty());
   const auto small = expected("stress:scale:small");
   ASSERT_EQ(small.size(), 1U);
-  const auto& same = std::get<record::SamePicture>(small[0].rule);
+  const auto& same = std::get<record::SameImage>(small[0].rule);
   EXPECT_EQ(same.changed.at("data"), "stress:scale:unit");
   EXPECT_EQ(same.depth_scale, 0x1.0p-20F);
   EXPECT_TRUE(same.to_the_bit);

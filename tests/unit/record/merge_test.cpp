@@ -109,7 +109,7 @@ TEST_F(Merge, ContainsEverythingFromItsInputs) {
   const Files files{shard(1, {record_of(3), record_of(1)}), shard(2, {record_of(2)})};
   {
     Store store(files[1], Mode::append);
-    store.add_image("0123", bytes_of("a picture"));
+    store.add_image("0123", bytes_of("an image"));
     store.set_truth({"scene", "1", bytes_of("an image"), bytes_of("a bound")});
     EXPECT_EQ(store.begin_record("run-002", configuration(7), "null:scripted"), 1);
   }
@@ -134,7 +134,7 @@ TEST_F(Merge, ContainsEverythingFromItsInputs) {
   const auto devices = store.devices("run-001");
   ASSERT_THAT(devices, SizeIs(1));
   EXPECT_EQ(devices[0].device, sample_device());
-  EXPECT_EQ(store.image("0123"), bytes_of("a picture"));
+  EXPECT_EQ(store.image("0123"), bytes_of("an image"));
   EXPECT_EQ(store.truth("scene", "1")->bound, bytes_of("a bound"));
   EXPECT_EQ(store.begin_record("run-001", configuration(7), "null:scripted"), 2)
       << "configurations in flight must remain in flight";

@@ -23,13 +23,13 @@ using ::testing::StartsWith;
 using ::testing::ThrowsMessage;
 using Mode = Store::Mode;
 
-constexpr std::string_view picture = "an image";
+constexpr std::string_view image_content = "an image";
 const std::string listing = core::content_hash("mov");
 
 class StoreDamage : public StoreTest {
  protected:
   StoreDamage() {
-    const auto bytes = std::as_bytes(std::span(picture));
+    const auto bytes = std::as_bytes(std::span(image_content));
     Store store(file_, Mode::append);
     store.add_run(sample_run());
     store.add_device("run-1", sample_device(), {sample_clock()});

@@ -76,7 +76,7 @@ TEST(StoreSeed, OfTheFuzzerHasThisSchemaAndARecord) {
   ASSERT_EQ(store.runs().size(), 1U);
   const std::vector<Record> records = store.records(store.runs()[0].id);
   ASSERT_EQ(records.size(), 1U);
-  EXPECT_EQ(store.picture(records[0].image).pixel_count(), 1U);
+  EXPECT_EQ(store.decoded_image(records[0].image).pixel_count(), 1U);
 }
 
 TEST_F(StoreTest, OtherSchemaVersion) {
@@ -199,9 +199,9 @@ TEST_F(StoreTest, AStringOfManyMegabytesIsRejected) {
 
 TEST_F(StoreTest, AnInvalidImageIsReported) {
   Store store(file_, Mode::append);
-  store.add_image("0123", std::as_bytes(std::span("no picture")));
+  store.add_image("0123", std::as_bytes(std::span("not an image")));
   EXPECT_THAT(
-      [&] { static_cast<void>(store.picture("0123")); },
+      [&] { static_cast<void>(store.decoded_image("0123")); },
       ThrowsMessage<core::InputError>(AllOf(
           StartsWith(file_.string()), HasSubstr("image '0123': cannot be read as an EXR image"))));
 }

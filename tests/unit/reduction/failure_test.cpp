@@ -27,7 +27,7 @@ class FailureOf : public testing::Test {
     evidence.truth = [](const record::Record&) {
       return judge::TruthPair{grey(2, 0.5F), grey(2, 0.01F)};
     };
-    evidence.picture = [this](const record::Record&) { return grey(2, value); };
+    evidence.image = [this](const record::Record&) { return grey(2, value); };
   }
 
   record::Record record;

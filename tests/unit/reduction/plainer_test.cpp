@@ -16,21 +16,21 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-constexpr auto picture = measure::Decides::the_picture;
+constexpr auto of_the_image = measure::Decides::the_image;
 
 TEST(Plainer, AChoiceHasThePrecedingLevels) {
   const measure::Factor skip =
-      measure::choice("skip", {"none", "bricks", "distance"}, "distance", picture, "");
+      measure::choice("skip", {"none", "bricks", "distance"}, "distance", of_the_image, "");
   EXPECT_THAT(plainer(skip, "distance"), ElementsAre("none", "bricks"));
   EXPECT_THAT(plainer(skip, "none"), IsEmpty());
 }
 
 TEST(Plainer, ANumberIsTurnedOffOrHasItsDefault) {
-  const measure::Factor ert = measure::number("ert", 0, 0.5, "0.001953125", picture, "");
+  const measure::Factor ert = measure::number("ert", 0, 0.5, "0.001953125", of_the_image, "");
   EXPECT_THAT(plainer(ert, "0.1"), ElementsAre("0", "0.001953125"));
   EXPECT_THAT(plainer(ert, "0.001953125"), ElementsAre("0"));
   EXPECT_THAT(plainer(ert, "0"), IsEmpty());
-  const measure::Factor step = measure::number("step", 0.01, 16, "1", picture, "");
+  const measure::Factor step = measure::number("step", 0.01, 16, "1", of_the_image, "");
   EXPECT_THAT(plainer(step, "0.5"), ElementsAre("1"));
   EXPECT_THAT(plainer(step, "1"), IsEmpty());
 }

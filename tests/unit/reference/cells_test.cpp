@@ -32,7 +32,7 @@ double rms(const Truth& a, const Truth& b) {
   return std::sqrt(sum / static_cast<double>(a.rgba.size()));
 }
 
-TEST(CellsPicture, ConvergesToTheLimitOfTheMidpointRule) {
+TEST(CellsImage, ConvergesToTheLimitOfTheMidpointRule) {
   for (const char* function : {"haze", "surfaces"}) {
     scene::VolumeScene scene = volume_scene_of("mandelbulb", function);
     const Truth limit = render_volume_converged(scene, 1e-6);
@@ -66,7 +66,7 @@ double order_of(std::string_view data, double ridge) {
 // Somewhere in the volume is a surface on which the field has the value of the table's ridge. On
 // rays that are tangent to that surface, the error behaves like the square root of a distance,
 // which makes the order slightly lower than four.
-TEST(CellsPicture, IsOfFourthOrder) {
+TEST(CellsImage, IsOfFourthOrder) {
   for (const char* data : {"gaussian_blob", "marschner_lobb"}) {
     EXPECT_GE(order_of(data, 255), 3.9) << data << ", which no kink meets";
     EXPECT_GE(order_of(data, 128), 3.4) << data;
@@ -74,14 +74,14 @@ TEST(CellsPicture, IsOfFourthOrder) {
 }
 
 // Steps longer than a cell do not subdivide any cell.
-TEST(CellsPicture, IsTheSameForAllStepsLongerThanACell) {
+TEST(CellsImage, IsTheSameForAllStepsLongerThanACell) {
   scene::VolumeScene scene = volume_scene_of("mandelbulb", "haze");
   const Truth one = render_volume(scene);
   scene.step_voxels = 7;
   EXPECT_EQ(render_volume(scene).rgba, one.rgba);
 }
 
-TEST(CellsPicture, OfOneValueIsExact) {
+TEST(CellsImage, OfOneValueIsExact) {
   AnalyticOptions options;
   options.size = {8, 8, 8};
   AnalyticScene analytic = analytic_scene(AnalyticProblem::v1_constant, options);

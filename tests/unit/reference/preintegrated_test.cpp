@@ -136,7 +136,7 @@ double largest_error(const AnalyticScene& analytic, const Truth& truth) {
   return largest;
 }
 
-TEST(PreintegratedPicture, IsExactOnTheRampBetweenPlateaus) {
+TEST(PreintegratedImage, IsExactOnTheRampBetweenPlateaus) {
   AnalyticOptions options;
   options.size = {8, 8, 8};
   for (const double step : {0.21, 0.5, 1.0}) {
@@ -148,7 +148,7 @@ TEST(PreintegratedPicture, IsExactOnTheRampBetweenPlateaus) {
   }
 }
 
-TEST(PreintegratedPicture, ConvergesToTheLimitOfTheMidpointRule) {
+TEST(PreintegratedImage, ConvergesToTheLimitOfTheMidpointRule) {
   AnalyticOptions options;
   options.size = {10, 10, 10};
   AnalyticScene analytic = analytic_scene(AnalyticProblem::v4_gaussian, options);

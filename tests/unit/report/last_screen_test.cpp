@@ -69,7 +69,7 @@ TEST(LastScreen, ShowsHowCloseImagesAreToTheirBounds) {
   const auto all = overview(std::vector{result});
   ASSERT_EQ(all.bounds.size(), 2U);
   EXPECT_EQ(all.bounds[0].device, "gl:x");
-  EXPECT_EQ(all.bounds[0].pictures, 2U);
+  EXPECT_EQ(all.bounds[0].images, 2U);
   EXPECT_EQ(all.bounds[0].configuration, "step=0.61");
   EXPECT_EQ(all.bounds[1].share, 0.003);
 }

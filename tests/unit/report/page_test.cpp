@@ -32,25 +32,25 @@ TEST(Page, OfAPassShowsVerdictRowsAndImages) {
   EXPECT_THAT(page, Not(HasSubstr("id=\"findings\"")));
   // For each of two scenes, three images are visible: the reference, a rendered image and the
   // difference.
-  const std::string open = before(page.substr(page.find("id=\"pictures\"")), "<details>");
-  int pictures = 0;
+  const std::string open = before(page.substr(page.find("id=\"images\"")), "<details>");
+  int images = 0;
   for (auto at = open.find("<img "); at != std::string::npos; at = open.find("<img ", at + 1)) {
-    ++pictures;
+    ++images;
   }
-  EXPECT_EQ(pictures, 6);
+  EXPECT_EQ(images, 6);
   EXPECT_LT(page.size(), 2'000'000U);
 }
 
 TEST(Page, OfAFailureBeginsWithCausesCommandsAndWrongImages) {
   const std::string page = page_of(true);
   EXPECT_THAT(page, HasSubstr("<h1>FAIL (1)</h1>"));
-  const std::string findings = before(page.substr(page.find("id=\"findings\"")), "id=\"pictures\"");
+  const std::string findings = before(page.substr(page.find("id=\"findings\"")), "id=\"images\"");
   EXPECT_LT(findings.find("crashed: the worker was killed by SIGSEGV"),
             findings.find("811 of 2304"));
   EXPECT_THAT(findings, HasSubstr("(3 configurations)"));
   EXPECT_THAT(findings, HasSubstr("<pre><span>triptych render volume</span> <span>--device "
                                   "vulkan:lavapipe</span> <span>--set data=ball"));
-  const std::string open = before(page.substr(page.find("id=\"pictures\"")), "<details>");
+  const std::string open = before(page.substr(page.find("id=\"images\"")), "<details>");
   EXPECT_THAT(open, HasSubstr("aria-label=\"vulkan:lavapipe: crashed, no image\">crashed</div>"));
   EXPECT_THAT(open, Not(HasSubstr("within the error bound")));
 }

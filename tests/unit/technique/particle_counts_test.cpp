@@ -12,7 +12,7 @@ using testing::Not;
 using testing::Pair;
 using testing::UnorderedElementsAre;
 
-core::Image picture_of(std::vector<std::uint32_t> ids) {
+core::Image image_of(std::vector<std::uint32_t> ids) {
   core::Image image(static_cast<int>(ids.size()), 1);
   image.ids = std::move(ids);
   return image;
@@ -31,7 +31,7 @@ std::vector<std::uint32_t> two_rows() {
 
 TEST(ParticleCounts, OfSpritesAddUpAllRows) {
   const CountedFrame frame{.culling = Culling::frustum, .cells = 90, .particles = 100};
-  EXPECT_THAT(particle_counts(frame, two_rows(), picture_of({3, 3, core::Image::no_particle})),
+  EXPECT_THAT(particle_counts(frame, two_rows(), image_of({3, 3, core::Image::no_particle})),
               UnorderedElementsAre(Pair("cells", 90), Pair("cells_culled", 71),
                                    Pair("particles_submitted", 61), Pair("particles_culled", 39),
                                    Pair("sprites", 11), Pair("vertices", 21), Pair("fragments", 31),
@@ -42,29 +42,29 @@ TEST(ParticleCounts, OfSpritesAddUpAllRows) {
 TEST(ParticleCounts, OfTilesContainBinEntriesAndNoFragments) {
   const CountedFrame frame{
       .method = Method::tiles, .culling = Culling::frustum, .cells = 90, .particles = 100};
-  const auto counts = particle_counts(frame, two_rows(), picture_of({1}));
+  const auto counts = particle_counts(frame, two_rows(), image_of({1}));
   EXPECT_THAT(counts, Contains(Pair("bin_entries", 51)));
   EXPECT_THAT(counts, Not(Contains(Pair(testing::StartsWith("fragments"), testing::_))));
 }
 
 TEST(ParticleCounts, OfRaysContainNodesAndBoxes) {
   const CountedFrame frame{.method = Method::rays, .cells = 90, .particles = 100};
-  EXPECT_THAT(particle_counts(frame, two_rows(), picture_of({1})),
+  EXPECT_THAT(particle_counts(frame, two_rows(), image_of({1})),
               UnorderedElementsAre(Pair("nodes_visited", 11), Pair("boxes_tested", 21),
                                    Pair("intersections_tested", 31), Pair("visible_ids", 1)));
 }
 
 TEST(ParticleCounts, WithoutCullingAllIsSubmitted) {
-  const auto counts = particle_counts({.cells = 90, .particles = 100}, two_rows(), picture_of({1}));
+  const auto counts = particle_counts({.cells = 90, .particles = 100}, two_rows(), image_of({1}));
   EXPECT_THAT(counts, Contains(Pair("particles_submitted", 100)));
   EXPECT_THAT(counts, Contains(Pair("cells_culled", 0)));
 }
 
 TEST(VisibleIds, AreDifferentOnesWithoutTheBackground) {
   constexpr std::uint32_t none = core::Image::no_particle;
-  EXPECT_EQ(visible_ids(picture_of({none, 2, 7, 2, none, 0})), 3U);
-  EXPECT_EQ(visible_ids(picture_of({none, none})), 0U);
-  EXPECT_EQ(visible_ids(picture_of({5})), 1U);
+  EXPECT_EQ(visible_ids(image_of({none, 2, 7, 2, none, 0})), 3U);
+  EXPECT_EQ(visible_ids(image_of({none, none})), 0U);
+  EXPECT_EQ(visible_ids(image_of({5})), 1U);
 }
 
 }  // namespace

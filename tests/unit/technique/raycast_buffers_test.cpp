@@ -38,8 +38,8 @@ TEST(RaycastBuffers, MatchTheAllocatedBuffers) {
     const RaycastBuffers buffers = raycast_buffers(scene, {.extra_work_stride = 5});
     EXPECT_EQ(buffers.table, quadrature_table_bytes(scene.quadrature));
     EXPECT_EQ(buffers.counters, 61U * 40U * 32U);
-    EXPECT_EQ(buffers.picture, 16U * static_cast<std::uint64_t>(drawn_pixels(61, 40, 5)));
-    EXPECT_EQ(buffers.all(), buffers.table + buffers.counters + buffers.picture + buffers.bricks);
+    EXPECT_EQ(buffers.image, 16U * static_cast<std::uint64_t>(drawn_pixels(61, 40, 5)));
+    EXPECT_EQ(buffers.all(), buffers.table + buffers.counters + buffers.image + buffers.bricks);
   }
 }
 

@@ -30,7 +30,7 @@ TEST(ShownError, StatesTheShareOfTheBound) {
   EXPECT_EQ(error.beyond, 0U);
   EXPECT_TRUE(error.rings.empty());
   EXPECT_EQ(error.headline, "errors up to 0.3 times the bound");
-  EXPECT_EQ(error.picture.rgb.size(), 3U * 4 * 2);
+  EXPECT_EQ(error.displayed.rgb.size(), 3U * 4 * 2);
 }
 
 TEST(ShownError, RingsAPixelBeyondTheBound) {
@@ -51,7 +51,7 @@ TEST(ShownError, RingsAPixelBeyondTheBound) {
 TEST(ShownError, ImagesOfDifferentSizesHaveNoDifference) {
   const ShownError error = shown_error(core::Image(3, 2), flat(0), flat(1), "");
   EXPECT_FALSE(error.right);
-  EXPECT_TRUE(error.picture.rgb.empty());
+  EXPECT_TRUE(error.displayed.rgb.empty());
 }
 
 // Two devices at opposite ends of their bounds are both correct. A device beyond both bounds is
@@ -85,7 +85,7 @@ TEST(BoundBetween, RequiresTheSameSurfaceWhereBothReferencesAreCertain) {
 }
 
 TEST(ScaleOfBounds, ExtendsBeyondTheBound) {
-  const core::RgbPicture scale = scale_of_bounds(111);
+  const core::RgbImage scale = scale_of_bounds(111);
   const auto pixel = [&](std::size_t x) {
     return std::array{scale.rgb[3 * x], scale.rgb[3 * x + 1], scale.rgb[3 * x + 2]};
   };

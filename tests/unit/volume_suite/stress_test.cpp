@@ -97,7 +97,7 @@ TEST(Stress, EveryCaseIsValidWithItsExpectations) {
               scene.volume.voxel_count() * scene::bytes_of(scene.volume.type));
     EXPECT_EQ(scene.volume.name, data);
     for (const record::Expectation& each : scene.expectations) {
-      const auto* same = std::get_if<record::SamePicture>(&each.rule);
+      const auto* same = std::get_if<record::SameImage>(&each.rule);
       if (same == nullptr) continue;
       EXPECT_NE(std::ranges::find(all, same->changed.at("data")), all.end());
       EXPECT_NE(same->changed.at("data"), data);

@@ -136,7 +136,7 @@ class RandomWords : public GateTest {
   std::string failures(const std::string& run) {
     const reduction::Evidence evidence{
         .truth = request_.truth,
-        .picture = [&](const record::Record& record) { return store_.picture(record.image); }};
+        .image = [&](const record::Record& record) { return store_.decoded_image(record.image); }};
     std::vector<reduction::Failure> all;
     for (const record::Record& record : store_.records(run)) {
       if (auto failure = reduction::failure_of(record, evidence)) all.push_back(*failure);

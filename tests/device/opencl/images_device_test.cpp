@@ -54,11 +54,11 @@ Distance against_truth(measure::Device& device, const scene::VolumeScene& scene,
       scene,
       {.ert = options.ert,
        .filter_weight_error = device.filter_weight_error({scene.grid->format, options.sampler})});
-  return from_truth(picture(device, make_work("raycast", scene, options)),
+  return from_truth(draw_image(device, make_work("raycast", scene, options)),
                     reference::render_volume(scene, model));
 }
 
-TEST(OpenClPictures, StayWithinTheBound) {
+TEST(OpenClImages, StayWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const auto& [voxel, sampler] : paths) {
       Distance worst;
@@ -88,7 +88,7 @@ TEST(OpenClPictures, StayWithinTheBound) {
   });
 }
 
-TEST(OpenClPictures, SkippingIsBitIdentical) {
+TEST(OpenClImages, SkippingIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view data :
          {"generate:mandelbulb:40", "generate:sparse_field:67x31x40", "generate:nested_shells:33",
@@ -98,7 +98,8 @@ TEST(OpenClPictures, SkippingIsBitIdentical) {
           const scene::VolumeScene scene = make_scene(
               {.data = data, .transfer_function = function, .camera = "random:11", .voxel = voxel});
           const auto draw = [&](Skip skip) {
-            return picture(device, make_work("raycast", scene, {.sampler = sampler, .skip = skip}));
+            return draw_image(device,
+                              make_work("raycast", scene, {.sampler = sampler, .skip = skip}));
           };
           EXPECT_EQ(draw(Skip::none), draw(Skip::bricks))
               << data << ' ' << function << ' ' << scene::name_of(voxel) << ' '
@@ -111,7 +112,7 @@ TEST(OpenClPictures, SkippingIsBitIdentical) {
 
 // Tests a volume of one voxel, one of one layer and one of one row, and viewports that are not
 // multiples of the work-group size.
-TEST(OpenClPictures, ThinVolumesAndOddViewports) {
+TEST(OpenClImages, ThinVolumesAndOddViewports) {
   for_each_device([](measure::Device& device) {
     for (const std::string_view data : {"generate:uniform_box:1", "generate:gradient_box:9x9x1",
                                         "generate:gradient_box:1x17x1", "generate:mandelbulb:2"}) {
@@ -134,7 +135,7 @@ TEST(OpenClPictures, ThinVolumesAndOddViewports) {
   });
 }
 
-TEST(OpenClPictures, CamerasInsideAndAlongAxes) {
+TEST(OpenClImages, CamerasInsideAndAlongAxes) {
   for_each_device([](measure::Device& device) {
     scene::VolumeScene scene = make_scene({.transfer_function = "haze", .width = 17, .height = 17});
     struct View {
@@ -153,28 +154,28 @@ TEST(OpenClPictures, CamerasInsideAndAlongAxes) {
           << eye.x << ' ' << eye.y << ' ' << eye.z;
       technique::RaycastOptions skipping = plain;
       skipping.skip = Skip::bricks;
-      EXPECT_EQ(picture(device, make_work("raycast", scene, plain)),
-                picture(device, make_work("raycast", scene, skipping)));
+      EXPECT_EQ(draw_image(device, make_work("raycast", scene, plain)),
+                draw_image(device, make_work("raycast", scene, skipping)));
     }
   });
 }
 
-TEST(OpenClPictures, RaysThatMissShowExactlyTheBackground) {
+TEST(OpenClImages, RaysThatMissShowExactlyTheBackground) {
   for_each_device([](measure::Device& device) {
     scene::VolumeScene scene = make_scene({});
     scene.camera.forward = -scene.camera.forward;
-    for (const float channel : picture(device, make_work("raycast", scene)).rgba) {
+    for (const float channel : draw_image(device, make_work("raycast", scene)).rgba) {
       EXPECT_THAT(channel, testing::AnyOf(0.1F, 0.2F, 0.3F, 1.0F));
     }
   });
 }
 
-TEST(OpenClPictures, EarlyTerminationStaysWithinItsErrorBudget) {
+TEST(OpenClImages, EarlyTerminationStaysWithinItsErrorBudget) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene = make_scene({.data = "generate:nested_shells:48"});
-    const core::Image whole = picture(device, make_work("raycast", scene, {.ert = 0}));
+    const core::Image whole = draw_image(device, make_work("raycast", scene, {.ert = 0}));
     for (const double ert : {1.0 / 50, 1.0 / 512, 1e-6}) {
-      const core::Image cut = picture(device, make_work("raycast", scene, {.ert = ert}));
+      const core::Image cut = draw_image(device, make_work("raycast", scene, {.ert = ert}));
       EXPECT_LE(largest_difference(cut, whole), ert);
       if (ert > 0.01) {
         EXPECT_GT(largest_difference(cut, whole), 0);
@@ -183,7 +184,7 @@ TEST(OpenClPictures, EarlyTerminationStaysWithinItsErrorBudget) {
   });
 }
 
-TEST(OpenClPictures, InjectedFaultsExceedTheBound) {
+TEST(OpenClImages, InjectedFaultsExceedTheBound) {
   for_each_device([](measure::Device& device) {
     for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
       for (const Fault fault : {Fault::half_voxel_shift, Fault::flipped_axis, Fault::extra_sample,
@@ -204,7 +205,7 @@ TEST(OpenClPictures, InjectedFaultsExceedTheBound) {
   });
 }
 
-TEST(OpenClPictures, AHundredFramesAreBitIdentical) {
+TEST(OpenClImages, AHundredFramesAreBitIdentical) {
   for_each_device([](measure::Device& device) {
     const auto prepared = device.prepare(make_work("raycast", make_scene({.shading = true})));
     static_cast<void>(prepared->frame(measure::Purpose::timing));

@@ -11,7 +11,7 @@ namespace triptych::command_line {
 
 // Writes the reference image of the tiny plan's scene to a file, so that scripted devices can draw
 // it. Returns the file. `transfer_function` is a preset, or a file in the program's folder.
-inline std::filesystem::path right_picture(const Program& program,
+inline std::filesystem::path correct_image(const Program& program,
                                            const std::string& transfer_function = "haze") {
   const auto suite = volume_suite::make_suite({program.folder()});
   const measure::Plan plan =

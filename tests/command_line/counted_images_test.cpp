@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* counted_device = "vulkan:lavapipe";
 
-class CountedPictures : public testing::Test {
+class CountedImages : public testing::Test {
  protected:
   // Returns the records of a plan with these checks; empty if the device or the counter is missing.
   std::vector<record::Record> counted(const std::string& name, const std::string& checks) {
@@ -37,7 +37,7 @@ class CountedPictures : public testing::Test {
   Program program;
 };
 
-TEST_F(CountedPictures, AreStoredIfThePlanJudgesThem) {
+TEST_F(CountedImages, AreStoredIfThePlanJudgesThem) {
   const auto alone = counted("alone", "[cost]");
   if (alone.empty() && !HasFailure())
     GTEST_SKIP() << counted_device << " cannot be counted on this machine";

@@ -1,8 +1,8 @@
 // Records contain only the name of a technique, because the library `record` must not depend on the
-// catalogue of techniques. Therefore, this test checks that has_picture() and the catalogue agree
+// catalogue of techniques. Therefore, this test checks that has_image() and the catalogue agree
 // on which techniques draw images.
 
-#include "record/has_picture.hpp"
+#include "record/has_image.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,13 +11,13 @@
 namespace triptych::record {
 namespace {
 
-TEST(HasPicture, AgreesWithTheCatalogue) {
+TEST(HasImage, AgreesWithTheCatalogue) {
   std::size_t without = 0;
   for (const technique::Technique& each : technique::catalogue()) {
     Record record;
     record.technique = each.id;
-    EXPECT_EQ(has_picture(record), each.picture) << each.id;
-    without += each.picture ? 0 : 1;
+    EXPECT_EQ(has_image(record), each.draws_image) << each.id;
+    without += each.draws_image ? 0 : 1;
   }
   EXPECT_EQ(without, 1U);
 }

@@ -9,7 +9,7 @@ namespace triptych::record {
 // which only fetches the data and sums them, or if the device is a compile-only device, which draws
 // nothing. A test compares this function with technique/catalogue.hpp, which states for each
 // technique whether it draws an image.
-[[nodiscard]] inline bool has_picture(const Record& record) {
+[[nodiscard]] inline bool has_image(const Record& record) {
   return record.technique != "speed_of_light" && record.code.empty();
 }
 

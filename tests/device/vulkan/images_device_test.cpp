@@ -46,13 +46,13 @@ reference::Truth truth_of(const measure::Device& device, const scene::VolumeScen
 void expect_truth(measure::Device& device, const scene::VolumeScene& scene,
                   const RaycastOptions& options, const std::string& what) {
   const reference::Truth truth = truth_of(device, scene, options);
-  for (const std::string_view technique : picture_techniques) {
-    const Verdict verdict = judge(picture(device, make_work(technique, scene, options)), truth);
+  for (const std::string_view technique : image_techniques) {
+    const Verdict verdict = judge(draw_image(device, make_work(technique, scene, options)), truth);
     EXPECT_EQ(verdict.outside, 0) << technique << ' ' << what << ": worst " << verdict.worst;
   }
 }
 
-TEST(VulkanPictures, EveryFormatAndSamplerIsWithinTheBound) {
+TEST(VulkanImages, EveryFormatAndSamplerIsWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const VoxelFormat voxel :
          {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32, VoxelFormat::f16}) {
@@ -66,7 +66,7 @@ TEST(VulkanPictures, EveryFormatAndSamplerIsWithinTheBound) {
 
 // Tests every closed-form expression for the opacity of a step, the general expression, and steps
 // that are longer than the volume.
-TEST(VulkanPictures, EveryStepSizeIsWithinTheBound) {
+TEST(VulkanImages, EveryStepSizeIsWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const double step : {0.0625, 0.125, 0.25, 0.5, 0.7, 1.0, 2.0, 3.0, 4.0, 8.0, 1000.0}) {
       for (const bool shading : {false, true}) {
@@ -77,7 +77,7 @@ TEST(VulkanPictures, EveryStepSizeIsWithinTheBound) {
   });
 }
 
-TEST(VulkanPictures, ThinVolumesAndOddViewports) {
+TEST(VulkanImages, ThinVolumesAndOddViewports) {
   for_each_device([](measure::Device& device) {
     for (const char* size : {"1x1x1", "2x2x2", "24x24x1", "1x24x24", "1x1x31", "7x11x13"}) {
       const std::string data = fmt::format("generate:gradient_box:{}", size);
@@ -92,7 +92,7 @@ TEST(VulkanPictures, ThinVolumesAndOddViewports) {
   });
 }
 
-TEST(VulkanPictures, CamerasInsideOnFacesAndAlongAxes) {
+TEST(VulkanImages, CamerasInsideOnFacesAndAlongAxes) {
   for_each_device([](measure::Device& device) {
     scene::VolumeScene scene = make_scene({.transfer_function = "haze"});
     const double edge = scene.box().hi.x;
@@ -115,7 +115,7 @@ TEST(VulkanPictures, CamerasInsideOnFacesAndAlongAxes) {
   });
 }
 
-TEST(VulkanPictures, SkippingIsBitIdentical) {
+TEST(VulkanImages, SkippingIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const scene::GeneratorInfo& generator : scene::volume_generators()) {
       for (const std::string_view preset : scene::transfer_function_presets()) {
@@ -123,12 +123,13 @@ TEST(VulkanPictures, SkippingIsBitIdentical) {
             make_scene({.data = fmt::format("generate:{}:37", generator.name),
                         .transfer_function = preset,
                         .camera = "random:5"});
-        for (const std::string_view technique : picture_techniques) {
+        for (const std::string_view technique : image_techniques) {
           for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
             for (const double ert : {0.0, 1.0 / 512}) {
               const auto draw = [&](Skip skip) {
-                return picture(device, make_work(technique, scene,
-                                                 {.sampler = sampler, .skip = skip, .ert = ert}));
+                return draw_image(
+                    device,
+                    make_work(technique, scene, {.sampler = sampler, .skip = skip, .ert = ert}));
               };
               EXPECT_EQ(draw(Skip::bricks), draw(Skip::none))
                   << generator.name << ' ' << preset << ' ' << technique;
@@ -140,13 +141,13 @@ TEST(VulkanPictures, SkippingIsBitIdentical) {
   });
 }
 
-TEST(VulkanPictures, FragmentAndComputeDifferOnlyByRounding) {
+TEST(VulkanImages, FragmentAndComputeDifferOnlyByRounding) {
   for_each_device([](measure::Device& device) {
     for (const bool shading : {false, true}) {
       const scene::VolumeScene scene = make_scene({.shading = shading});
-      const core::Image compute = picture(device, make_work("raycast", scene, {.ert = 0}));
+      const core::Image compute = draw_image(device, make_work("raycast", scene, {.ert = 0}));
       const core::Image fragment =
-          picture(device, make_work("raycast_fragment", scene, {.ert = 0}));
+          draw_image(device, make_work("raycast_fragment", scene, {.ert = 0}));
       for (std::size_t i = 0; i < compute.rgba.size(); ++i) {
         ASSERT_NEAR(compute.rgba[i], fragment.rgba.at(i), 1e-5) << "channel " << i;
       }
@@ -154,20 +155,20 @@ TEST(VulkanPictures, FragmentAndComputeDifferOnlyByRounding) {
   });
 }
 
-TEST(VulkanPictures, RaysThatMissShowExactlyTheBackground) {
+TEST(VulkanImages, RaysThatMissShowExactlyTheBackground) {
   for_each_device([](measure::Device& device) {
     scene::VolumeScene scene = make_scene();
     scene.camera.forward = -scene.camera.forward;
-    for (const std::string_view technique : picture_techniques) {
-      const core::Image image = picture(device, make_work(technique, scene));
+    for (const std::string_view technique : image_techniques) {
+      const core::Image image = draw_image(device, make_work(technique, scene));
       for (int x = 0; x < image.width; ++x) EXPECT_EQ(image.pixel(x, 3), scene.background);
     }
   });
 }
 
-TEST(VulkanPictures, RepeatedFramesAreBitIdentical) {
+TEST(VulkanImages, RepeatedFramesAreBitIdentical) {
   for_each_device([](measure::Device& device) {
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       const auto prepared = device.prepare(make_work(technique, make_scene()));
       static_cast<void>(prepared->frame(measure::Purpose::timing));
       const core::Image first = prepared->image();
@@ -179,7 +180,7 @@ TEST(VulkanPictures, RepeatedFramesAreBitIdentical) {
   });
 }
 
-TEST(VulkanPictures, SpeedOfLightReadsTheSameSamplesAsRaycast) {
+TEST(VulkanImages, SpeedOfLightReadsTheSameSamplesAsRaycast) {
   for_each_device([](measure::Device& device) {
     // All table entries are equal, so every sample adds the same colour, and the sums are
     // proportional to the number of samples.
@@ -206,7 +207,7 @@ TEST(VulkanPictures, SpeedOfLightReadsTheSameSamplesAsRaycast) {
   });
 }
 
-TEST(VulkanPictures, InjectedFaultsExceedTheBound) {
+TEST(VulkanImages, InjectedFaultsExceedTheBound) {
   for_each_device([](measure::Device& device) {
     const scene::VolumeScene scene =
         make_scene({.data = "generate:gradient_box:24", .transfer_function = "haze"});
@@ -215,9 +216,9 @@ TEST(VulkanPictures, InjectedFaultsExceedTheBound) {
                                 Fault::uncorrected_opacity, Fault::coarse_filter}) {
         const RaycastOptions options{.sampler = sampler, .ert = 0, .fault = fault};
         const reference::Truth truth = truth_of(device, scene, options);
-        for (const std::string_view technique : picture_techniques) {
+        for (const std::string_view technique : image_techniques) {
           const Verdict verdict =
-              judge(picture(device, make_work(technique, scene, options)), truth);
+              judge(draw_image(device, make_work(technique, scene, options)), truth);
           EXPECT_GT(verdict.outside, 0) << technique << " fault " << static_cast<int>(fault);
         }
       }

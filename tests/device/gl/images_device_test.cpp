@@ -39,7 +39,7 @@ Verdict against_truth(measure::Device& device, std::string_view technique,
   const double filter_error = device.filter_weight_error({scene.grid->format, options.sampler});
   const reference::Truth truth =
       reference::render_volume(scene, error_model(scene, options.ert, filter_error));
-  const core::Image image = picture(device, make_work(technique, scene, options));
+  const core::Image image = draw_image(device, make_work(technique, scene, options));
   EXPECT_EQ(image.width, scene.width);
   EXPECT_EQ(image.height, scene.height);
   Verdict verdict;
@@ -51,12 +51,12 @@ Verdict against_truth(measure::Device& device, std::string_view technique,
   return verdict;
 }
 
-TEST(GlPictures, EveryFormatAndSamplerStaysWithinTheBound) {
+TEST(GlImages, EveryFormatAndSamplerStaysWithinTheBound) {
   for_each_device([](measure::Device& device) {
     for (const VoxelFormat voxel :
          {VoxelFormat::u8, VoxelFormat::u16, VoxelFormat::f32, VoxelFormat::f16}) {
       for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
-        for (const std::string_view technique : picture_techniques) {
+        for (const std::string_view technique : image_techniques) {
           const scene::VolumeScene scene = make_scene({.voxel = voxel});
           const Verdict verdict =
               against_truth(device, technique, scene, {.sampler = sampler, .ert = 0});
@@ -68,9 +68,9 @@ TEST(GlPictures, EveryFormatAndSamplerStaysWithinTheBound) {
   });
 }
 
-TEST(GlPictures, ShadingAndStepsStayWithinTheBound) {
+TEST(GlImages, ShadingAndStepsStayWithinTheBound) {
   for_each_device([](measure::Device& device) {
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       for (const double step : {0.25, 1.0, 7.0, 1000.0}) {
         const scene::VolumeScene scene = make_scene({.step_voxels = step, .shading = true});
         EXPECT_EQ(against_truth(device, technique, scene, {}).outside, 0) << technique << step;
@@ -79,9 +79,9 @@ TEST(GlPictures, ShadingAndStepsStayWithinTheBound) {
   });
 }
 
-TEST(GlPictures, AwkwardVolumesStayWithinTheBound) {
+TEST(GlImages, AwkwardVolumesStayWithinTheBound) {
   for_each_device([](measure::Device& device) {
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       for (const char* size : {"1x1x1", "2x2x2", "23x23x1", "1x1x17", "7x11x13"}) {
         const std::string data = fmt::format("generate:gradient_box:{}", size);
         for (const auto& [voxel, sampler] : {std::pair{VoxelFormat::u8, Sampler::manual},
@@ -98,9 +98,9 @@ TEST(GlPictures, AwkwardVolumesStayWithinTheBound) {
   });
 }
 
-TEST(GlPictures, AwkwardCamerasStayWithinTheBound) {
+TEST(GlImages, AwkwardCamerasStayWithinTheBound) {
   for_each_device([](measure::Device& device) {
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       scene::VolumeScene scene =
           make_scene({.data = "generate:gradient_box:24", .transfer_function = "haze"});
       const double edge = scene.box().hi.x;
@@ -130,17 +130,17 @@ TEST(GlPictures, AwkwardCamerasStayWithinTheBound) {
   });
 }
 
-TEST(GlPictures, SkippingIsBitIdentical) {
+TEST(GlImages, SkippingIsBitIdentical) {
   for_each_device([](measure::Device& device) {
     for (const char* data : {"generate:mandelbulb:40", "generate:sparse_field:37",
                              "generate:nested_shells:32", "generate:frequency_box:24"}) {
       for (const std::string_view preset : scene::transfer_function_presets()) {
         const scene::VolumeScene scene = make_scene({.data = data, .transfer_function = preset});
-        for (const std::string_view technique : picture_techniques) {
+        for (const std::string_view technique : image_techniques) {
           for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
             const auto draw = [&](Skip skip) {
-              return picture(device, make_work(technique, scene,
-                                               {.sampler = sampler, .skip = skip, .ert = 0}));
+              return draw_image(device, make_work(technique, scene,
+                                                  {.sampler = sampler, .skip = skip, .ert = 0}));
             };
             EXPECT_EQ(draw(Skip::bricks), draw(Skip::none))
                 << data << ' ' << preset << ' ' << technique;
@@ -151,21 +151,21 @@ TEST(GlPictures, SkippingIsBitIdentical) {
   });
 }
 
-TEST(GlPictures, FragmentAndComputeDifferOnlyByRounding) {
+TEST(GlImages, FragmentAndComputeDifferOnlyByRounding) {
   for_each_device([](measure::Device& device) {
     for (const bool shading : {false, true}) {
       const scene::VolumeScene scene = make_scene({.width = 40, .height = 24, .shading = shading});
-      const core::Image compute = picture(device, make_work("raycast", scene, {.ert = 0}));
+      const core::Image compute = draw_image(device, make_work("raycast", scene, {.ert = 0}));
       const core::Image fragment =
-          picture(device, make_work("raycast_fragment", scene, {.ert = 0}));
+          draw_image(device, make_work("raycast_fragment", scene, {.ert = 0}));
       EXPECT_LT(largest_difference(compute, fragment), 1e-4);
     }
   });
 }
 
-TEST(GlPictures, RepeatedFramesAreBitIdentical) {
+TEST(GlImages, RepeatedFramesAreBitIdentical) {
   for_each_device([](measure::Device& device) {
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       const auto prepared = device.prepare(make_work(technique, make_scene({})));
       static_cast<void>(prepared->frame(measure::Purpose::timing));
       const core::Image first = prepared->image();
@@ -177,12 +177,12 @@ TEST(GlPictures, RepeatedFramesAreBitIdentical) {
   });
 }
 
-TEST(GlPictures, InjectedFaultsExceedTheBound) {
+TEST(GlImages, InjectedFaultsExceedTheBound) {
   // A sampler with a larger error than this is skipped, because its bound would be so wide that it
   // hides faults.
   constexpr double coarse = 1.0 / 64;
   for_each_device([](measure::Device& device) {
-    for (const std::string_view technique : picture_techniques) {
+    for (const std::string_view technique : image_techniques) {
       for (const Sampler sampler : {Sampler::manual, Sampler::hardware}) {
         if (device.filter_weight_error({VoxelFormat::f32, sampler}) > coarse) continue;
         for (const Fault fault : {Fault::half_voxel_shift, Fault::flipped_axis, Fault::extra_sample,

@@ -47,7 +47,7 @@ struct Scene {
   }
 };
 
-void append_scenes(std::vector<Scene>& scenes, const PictureSources& sources, const PlanData& plan,
+void append_scenes(std::vector<Scene>& scenes, const PanelSources& sources, const PlanData& plan,
                    bool name_plan) {
   std::vector<std::string> order;
   std::map<std::string, std::vector<const record::Record*>> by_scene;
@@ -60,8 +60,8 @@ void append_scenes(std::vector<Scene>& scenes, const PictureSources& sources, co
   for (const std::string& key : order) {
     auto records = by_scene[key];
     std::ranges::stable_sort(records, {}, [](const record::Record* r) { return r->technique; });
-    Scene scene{(name_plan ? plan.name + ": " : "") + picture_title(plan, *records.front()), {}};
-    const PictureScene of{sources, plan, records, scene.title, scenes.size()};
+    Scene scene{(name_plan ? plan.name + ": " : "") + image_title(plan, *records.front()), {}};
+    const PanelScene of{sources, plan, records, scene.title, scenes.size()};
     for (const SameBits& group : grouped_by_bits(records)) {
       scene.panels.push_back(panel_of(of, group));
     }
@@ -107,13 +107,13 @@ bool has_tile(const record::Record& record) {
                                    record.outcome != record::Outcome::skipped);
 }
 
-Pictures pictures_section(const PictureSources& sources, std::span<const PlanData> plans) {
+ImagesSection images_section(const PanelSources& sources, std::span<const PlanData> plans) {
   std::vector<Scene> scenes;
   for (const PlanData& plan : plans) append_scenes(scenes, sources, plan, plans.size() > 1);
   if (scenes.empty()) return {};
   std::ranges::stable_sort(scenes, std::greater{}, &Scene::rank);
   Html text = markup(
-      "<h2 id=\"pictures\">Images</h2><p class=\"system\">The reference image is rendered in "
+      "<h2 id=\"images\">Images</h2><p class=\"system\">The reference image is rendered in "
       "double "
       "precision with the same sample positions. The difference image shows the error of each "
       "pixel "
