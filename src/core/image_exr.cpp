@@ -238,10 +238,11 @@ Image decode(std::span<const std::byte> bytes, const FilePlace& place) {
 
 }  // namespace
 
-std::vector<std::byte> encode_exr(const Image& image) {
+std::vector<std::byte> encode_exr(const Image& image, ExrCompression compression) {
   require_consistent(image);
   Imf::Header header(image.width, image.height);
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() =
+      compression == ExrCompression::zip ? Imf::ZIP_COMPRESSION : Imf::RLE_COMPRESSION;
   for (const char* name : colour_channels) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
   if (!image.depth.empty()) header.channels().insert(depth_channel, Imf::Channel(Imf::FLOAT));
   if (!image.ids.empty()) header.channels().insert(id_channel, Imf::Channel(Imf::UINT));

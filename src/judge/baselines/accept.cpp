@@ -15,6 +15,7 @@
 #include "judge/baselines/drop_skipped.hpp"
 #include "judge/baselines/layout.hpp"
 #include "judge/baselines/next_folder.hpp"
+#include "judge/baselines/reference_hash.hpp"
 #include "record/has_image.hpp"
 
 namespace triptych::judge {
@@ -23,14 +24,35 @@ namespace {
 using core::Json;
 using record::Check;
 
-void update_image(const record::Record& record, const core::Image& reference, NextFolder& next) {
+// Another mathematics library changes the last bits of a reference image, and another version of a
+// compression library changes its file. Neither makes it a new reference image, so the following
+// two functions compare hashes of quantized colours.
+
+// Returns whether the file of a stored image contains the reference image with these hashes.
+bool contains(const std::vector<std::byte>& file, const ReferenceHash& reference) {
+  try {
+    return is_same_reference(reference_hash(core::decode_exr(file)), reference);
+  } catch (const core::InputError&) {
+    return false;  // a damaged file is replaced
+  }
+}
+
+// Returns whether the entry of a scene in images.json describes the reference image with these
+// hashes.
+bool describes(const Json& entry, const ReferenceHash& reference) {
+  const Json stored = entry.is_object() ? entry.value("reference", Json()) : Json();
+  if (!stored.is_array() || stored.size() != reference.size()) return false;
+  return stored[0] == reference[0] || stored[1] == reference[1];
+}
+
+void update_image(const record::Record& record, const core::Image& reference,
+                  const ReferenceHash& hash, NextFolder& next) {
   const std::string name = Layout::image(record.scene);
-  std::vector<std::byte> bytes = core::encode_exr(reference);
-  const auto known = next.files.find(name);
-  const bool exists = known != next.files.end();
-  if (exists && known->second == bytes) return;
+  const auto stored = next.files.find(name);
+  const bool exists = stored != next.files.end();
+  if (exists && contains(stored->second, hash)) return;
   next.lines.push_back(fmt::format("{}: {} ({})", name, exists ? "replaced" : "new", record.scene));
-  next.files[name] = std::move(bytes);
+  next.files[name] = core::encode_exr(reference, core::ExrCompression::zip);
 }
 
 // Updates the hashes of the reference images in images.json. The images themselves are large, so
@@ -47,15 +69,13 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
     if (!record::has_image(record)) continue;
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
-      if (keeps) update_image(record, reference, next);
+      const ReferenceHash hash = reference_hash(reference);
+      if (keeps) update_image(record, reference, hash, next);
       // The entry of a scene contains one hash of the data for each voxel format. The devices of
       // this run may not have used all formats, so the hashes for the other formats are kept,
       // unless the reference image has changed.
       Json& entry = table[record.scene];
-      const Json hash = reference_hash(reference);
-      if (!entry.is_object() || entry.value("reference", Json()) != hash) {
-        entry = {{"reference", hash}};
-      }
+      if (!describes(entry, hash)) entry = {{"reference", hash}};
     }
     if (!record.data_hash.empty()) {
       table[record.scene][Layout::data_key(record)] = record.data_hash;

@@ -112,7 +112,9 @@ std::vector<std::string> JudgeTest::accept_run(const std::string& run, AcceptReq
   how.plan = plan;
   how.reason = "a test";
   how.date = "2026-02-01";
-  how.truth = [](const record::Record& record) { return truth_of(record.scene); };
+  if (!how.truth) {
+    how.truth = [](const record::Record& record) { return truth_of(record.scene); };
+  }
   return accept(store_, run, folder_.path() / "baselines", how);
 }
 
