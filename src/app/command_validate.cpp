@@ -118,12 +118,12 @@ class Validation {
   // but it is reported as a flake.
   void draw_failures_again() {
     for (judge::GateResult& result : results_) {
-      const judge::Places places = judge::failing(result);
+      const judge::CaseSet places = judge::failing_cases(result);
       if (places.empty()) continue;
       const std::vector<record::Record> first = store_.records(result.run);
       if (!draw_again(result.plan, places)) return;
       const measure::Plan plan = arguments_.choice.load(result.plan, registry_.find_suite());
-      auto [second, flakes] = judge::tell_flakes(result, judge_plan(plan), places);
+      auto [second, flakes] = judge::mark_flakes(result, judge_plan(plan), places);
       result = std::move(second);
       // Keep the failed records of flaky configurations in the store.
       for (const record::Record& each : first) {
@@ -183,8 +183,9 @@ class Validation {
       const auto reason_of = [](const judge::Finding& finding) {
         return report::words::text_of(static_cast<const judge::Observation&>(finding));
       };
-      core::write_text(arguments_.write_expect,
-                       judge::expected_text(judge::as_expected(results_, reason_of)));
+      core::write_text(
+          arguments_.write_expect,
+          judge::expected_outcomes_text(judge::expected_outcomes_of(results_, reason_of)));
     }
     return tell_verdict(store_, truths_, results_, seconds,
                         {.folder = arguments_.out,
@@ -234,7 +235,7 @@ class Validation {
     request.checks = checks_of(plan.checks);
     request.devices = arguments_.devices;
     request.part = !arguments_.choice.is_whole();
-    request.known = known_;
+    request.expected_outcomes = known_;
     const std::optional<record::Run> run = store_.latest_run(plan.name);
     const std::string id = run && !before_.contains(run->id) ? run->id : "";
     judge::GateResult result = judge_named(store_, id, arguments_.baselines, request);
@@ -243,7 +244,7 @@ class Validation {
   }
 
   // Draws the failed configurations again. Returns false if the user interrupted the run.
-  bool draw_again(const std::string& plan, const judge::Places& places) {
+  bool draw_again(const std::string& plan, const judge::CaseSet& places) {
     say("{}: drawing {} failed configurations again\n", plan, places.size());
     Measuring measuring = measuring_of(arguments_, store_.file().string());
     measuring.plans = {plan};
@@ -308,7 +309,7 @@ core::ExitCode validate(const ValidateArguments& arguments) {
                             {"--json", arguments.json},
                             {"--write-expect", arguments.write_expect}});
   std::optional<std::vector<judge::Waiver>> known;
-  if (!arguments.expect.empty()) known = judge::read_expected(arguments.expect);
+  if (!arguments.expect.empty()) known = judge::read_expected_outcomes(arguments.expect);
   core::require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
   const std::set<std::string> before = arguments.resume ? std::set<std::string>{} : runs_in(file);

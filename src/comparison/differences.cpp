@@ -201,9 +201,9 @@ class Finder {
       return;
     }
     judge::FrameChange change = judge::frame_change(b_.record, before);
-    const double frame = judge::frame_of(before);
-    const double ratio = frame > 0 ? judge::frame_of(now) / frame : 1;
-    const bool more = same_device_ ? change.more : same_id_ && ratio > 1 + frame_across_setups;
+    const double frame = judge::frame_instructions(before);
+    const double ratio = frame > 0 ? judge::frame_instructions(now) / frame : 1;
+    const bool more = same_device_ ? change.increased : same_id_ && ratio > 1 + frame_across_setups;
     if (!change.changes.empty()) {
       Difference& found =
           add(more ? Kind::regression : Kind::changed, Subject::cost, Cause::values_changed);
@@ -214,8 +214,8 @@ class Finder {
   }
 
   void preparing() {
-    const double before = judge::frame_of(a_.record.prepare_cost);
-    const double now = judge::frame_of(b_.record.prepare_cost);
+    const double before = judge::frame_instructions(a_.record.prepare_cost);
+    const double now = judge::frame_instructions(b_.record.prepare_cost);
     if (before <= 0 || std::abs(now / before - 1) <= of_preparing) return;
     Difference& found = add(Kind::changed, Subject::preparing, Cause::values_changed);
     found.changes = {
@@ -285,7 +285,7 @@ class Finder {
                       difference <= open_a_.of(name) || difference <= open_b_.of(name);
     if (same_driver_) {
       add_change(Kind::regression, Subject::counter, Cause::same_driver, change);
-    } else if (a_.device.api != b_.device.api && judge::is_of_the_api(name)) {
+    } else if (a_.device.api != b_.device.api && judge::depends_on_api(name)) {
       add_change(Kind::changed, Subject::counter, Cause::api_specific, change);
     } else if (!open) {
       add_change(Kind::regression, Subject::counter, Cause::beyond_rounding, change);

@@ -18,7 +18,7 @@ using ByDevice = std::map<std::string, const record::Record*>;
 constexpr std::array<const char*, 3> telling_work{"samples", "fragments", "primitives"};
 
 double instructions_of(const record::Record& record) {
-  return judge::frame_of(record.cost);
+  return judge::frame_instructions(record.cost);
 }
 
 double time_by(const record::Record& record, std::string_view clock) {

@@ -20,7 +20,7 @@ inline constexpr double counters_across_devices = 1e-4;
 
 // Returns whether the value of this counter depends on the API. For example, the same technique
 // bins spheres on OpenCL, but draws them directly on Vulkan and OpenGL.
-[[nodiscard]] constexpr bool is_of_the_api(std::string_view counter) {
+[[nodiscard]] constexpr bool depends_on_api(std::string_view counter) {
   return counter == "bin_entries";
 }
 

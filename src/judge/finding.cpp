@@ -136,25 +136,25 @@ constexpr Names<Unit, 5> unit_names{{
     {Unit::allocations, "allocations"},
 }};
 
-constexpr Names<Again, 4> again_names{{
-    {Again::not_drawn, "not_drawn"},
-    {Again::flake, "flake"},
-    {Again::slow, "slow"},
-    {Again::other, "other"},
+constexpr Names<RetryResult, 4> retry_result_names{{
+    {RetryResult::not_drawn, "not_drawn"},
+    {RetryResult::flake, "flake"},
+    {RetryResult::slow, "slow"},
+    {RetryResult::other, "other"},
 }};
 
-constexpr Names<Excuse::Of, 5> excuse_names{{
-    {Excuse::Of::nothing, "nothing"},
-    {Excuse::Of::waived, "waived"},
-    {Excuse::Of::expired, "expired"},
-    {Excuse::Of::known, "known"},
-    {Excuse::Of::unexpected, "unexpected"},
+constexpr Names<Excuse::Kind, 5> excuse_names{{
+    {Excuse::Kind::nothing, "nothing"},
+    {Excuse::Kind::waived, "waived"},
+    {Excuse::Kind::expired, "expired"},
+    {Excuse::Kind::known, "known"},
+    {Excuse::Kind::unexpected, "unexpected"},
 }};
 
 }  // namespace
 
-std::string_view name_of(Excuse::Of of) {
-  return record::name_in(excuse_names, of);
+std::string_view name_of(Excuse::Kind kind) {
+  return record::name_in(excuse_names, kind);
 }
 std::string_view name_of(Verdict verdict) {
   return record::name_in(verdict_names, verdict);
@@ -171,8 +171,8 @@ std::string_view name_of(Advice advice) {
 std::string_view name_of(Unit unit) {
   return record::name_in(unit_names, unit);
 }
-std::string_view name_of(Again again) {
-  return record::name_in(again_names, again);
+std::string_view name_of(RetryResult result) {
+  return record::name_in(retry_result_names, result);
 }
 
 double Observation::number(const std::string& name) const {
@@ -186,35 +186,37 @@ const std::string& Observation::fact(const std::string& name) const {
   return found == facts.end() ? none : found->second;
 }
 
-void set_number(Observation& what, const std::string& name, double value) {
-  if (std::isfinite(value)) what.numbers[name] = value;
+void set_number(Observation& observation, const std::string& name, double value) {
+  if (std::isfinite(value)) observation.numbers[name] = value;
 }
 
-std::string kind_of(const Observation& what) {
-  std::string kind = fmt::format("{} {}", name_of(what.cause), name_of(what.against));
-  if (what.outcome != record::Outcome::measured) {
-    kind += fmt::format(" {} {}", record::name_of(what.outcome), record::kind_of(what.reason));
+std::string kind_of(const Observation& observation) {
+  std::string kind = fmt::format("{} {}", name_of(observation.cause), name_of(observation.against));
+  if (observation.outcome != record::Outcome::measured) {
+    kind += fmt::format(" {} {}", record::name_of(observation.outcome),
+                        record::kind_of(observation.reason));
   }
-  const bool alone = what.changes.size() == 1;
-  for (const Change& each : what.changes) {
+  const bool alone = observation.changes.size() == 1;
+  for (const Change& each : observation.changes) {
     // The kind does not name cache misses, unless they are the only change, because they often
     // increase only as a consequence of the other changes.
     if (each.unit == Unit::misses && !alone) continue;
     kind += " " + each.name;
   }
-  if (what.cause == Cause::device_fault) kind += " " + what.fact("kind");
-  if (what.cause == Cause::unknown_values) kind += fmt::format(" {}", fmt::join(what.names, " "));
-  for (const Observation& each : what.because) kind += "; " + kind_of(each);
+  if (observation.cause == Cause::device_fault) kind += " " + observation.fact("kind");
+  if (observation.cause == Cause::unknown_values)
+    kind += fmt::format(" {}", fmt::join(observation.names, " "));
+  for (const Observation& each : observation.because) kind += "; " + kind_of(each);
   return kind;
 }
 
 std::string kind_of(const Finding& finding) {
   return fmt::format("{}, {} {} {} {}", kind_of(static_cast<const Observation&>(finding)),
-                     finding.subject, name_of(finding.excuse.of), name_of(finding.drawn_again),
+                     finding.subject, name_of(finding.excuse.kind), name_of(finding.retry_result),
                      fmt::join(finding.injected, "+"));
 }
 
-bool ended_a_program(const Finding& finding) {
+bool ended_abnormally(const Finding& finding) {
   return finding.cause == Cause::ended && finding.outcome != record::Outcome::skipped;
 }
 

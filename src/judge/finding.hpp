@@ -147,7 +147,7 @@ enum class Against : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Against against);
 
-// The next step that a finding recommends. `command` is Advised::command.
+// The next step that a finding recommends. `command` is AdviceWithCommand::command.
 enum class Advice : std::uint8_t {
   none,
   accept,                // accept the values with `command`
@@ -166,7 +166,7 @@ enum class Advice : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(Advice advice);
 
-struct Advised {
+struct AdviceWithCommand {
   Advice advice = Advice::none;
   std::string command = {};
 };
@@ -202,36 +202,36 @@ struct Observation {
 };
 // Returns a string that is equal for all observations of one kind. It depends on the cause and the
 // names of the changed values, but not on numbers or messages.
-[[nodiscard]] std::string kind_of(const Observation& what);
+[[nodiscard]] std::string kind_of(const Observation& observation);
 // Sets `numbers[name]` to `value`. Does nothing for an infinity or NaN, because JSON cannot
 // represent them.
-void set_number(Observation& what, const std::string& name, double value);
+void set_number(Observation& observation, const std::string& name, double value);
 
 // The effect of a waiver, or of a file of expectations (the list of known failures for `validate
 // --expect`), on a finding.
 struct Excuse {
-  enum class Of : std::uint8_t {
+  enum class Kind : std::uint8_t {
     nothing,
     waived,      // waivers.json lists it
     expired,     // a waiver for it has expired
     known,       // a file of expectations lists it
     unexpected,  // a skip or a pass that the file of expectations does not list
   };
-  Of of = Of::nothing;
-  Known known = Known::fail;
+  Kind kind = Kind::nothing;
+  ExpectedOutcome outcome = ExpectedOutcome::fail;
   std::string reason = {};
   std::string expiry = {};
 };
-[[nodiscard]] std::string_view name_of(Excuse::Of of);
+[[nodiscard]] std::string_view name_of(Excuse::Kind kind);
 
 // The result of a second attempt after a regression.
-enum class Again : std::uint8_t {
+enum class RetryResult : std::uint8_t {
   not_drawn,
   flake,  // passed the second time
   slow,   // timed out, but passed the second time: the device is slow, or hangs sometimes
-  other   // see Finding::again
+  other   // see Finding::retry_observations
 };
-[[nodiscard]] std::string_view name_of(Again again);
+[[nodiscard]] std::string_view name_of(RetryResult result);
 
 // One result about one configuration on one device. The configuration and the device are empty if
 // the finding is about the whole plan.
@@ -244,7 +244,7 @@ struct Finding : Observation {
   // For a correlation finding about several configurations: the factor level that these
   // configurations share, such as "step=0.5", or "everything".
   std::string subject = {};
-  Advised advice = {};
+  AdviceWithCommand advice = {};
   std::vector<std::string> injected = {};  // faults that `run --inject` put into the record
   // For a regression on a driver version that was never accepted: the devices on which the
   // configuration was accepted. These may include the same device with another driver version.
@@ -253,15 +253,15 @@ struct Finding : Observation {
   // accepted.
   bool measured_before = false;
   Excuse excuse = {};
-  Again drawn_again = Again::not_drawn;
+  RetryResult retry_result = RetryResult::not_drawn;
   // The finding of the second attempt, if its cause differs from the cause of this finding.
-  std::vector<Observation> again = {};
+  std::vector<Observation> retry_observations = {};
 };
 // Like kind_of(const Observation&), but the string also depends on the subject, the excuse, the
 // second attempt and the injected faults.
 [[nodiscard]] std::string kind_of(const Finding& finding);
 // Returns whether the configuration of the finding ended with an error, a crash, a timeout or a
 // lost device.
-[[nodiscard]] bool ended_a_program(const Finding& finding);
+[[nodiscard]] bool ended_abnormally(const Finding& finding);
 
 }  // namespace triptych::judge

@@ -14,11 +14,11 @@ std::optional<judge::Observation> image_fault(const record::Record& record,
   if (record.image.empty()) return std::nullopt;
   const judge::TruthPair pair = evidence.truth(record);
   const core::Image image = evidence.image(record);
-  judge::Observation what =
+  judge::Observation observation =
       judge::image_observation(accuracy::compare(image, pair.truth, pair.bound), image, pair.truth,
                                judge::Against::reference);
-  if (what.cause == judge::Cause::within_bound) return std::nullopt;
-  return what;
+  if (observation.cause == judge::Cause::within_bound) return std::nullopt;
+  return observation;
 }
 
 std::vector<judge::Change> counter_changes(const record::Record& record, const Evidence& evidence) {

@@ -56,7 +56,7 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
       unusable[each.ended ? words::text_of(*each.ended) : each.reason].insert(each.what);
     }
     if (!result->measured_by.empty()) programs.insert(result->measured_by);
-    if (!result->began.empty()) days.insert(result->began);
+    if (!result->old_run_date.empty()) days.insert(result->old_run_date);
   }
   std::vector<std::string> lines;
   if (!injected.empty()) {

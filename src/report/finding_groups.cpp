@@ -82,7 +82,7 @@ Places wrong_images(std::span<const Finding> findings) {
   Places wrong;
   for (const Finding& each : findings) {
     if (each.check != Check::image || each.verdict != Verdict::regression) continue;
-    if (!each.configuration.empty() && !ended_a_program(each)) {
+    if (!each.configuration.empty() && !ended_abnormally(each)) {
       wrong.emplace(each.device, each.configuration);
     }
   }
@@ -188,7 +188,7 @@ class Grouping {
     }
     std::ranges::stable_sort(all, {}, [](const FindingGroup& group) {
       const Finding& first = *group.first;
-      return std::tuple(-static_cast<int>(first.verdict), !ended_a_program(first), first.check,
+      return std::tuple(-static_cast<int>(first.verdict), !ended_abnormally(first), first.check,
                         -static_cast<double>(group.configurations), std::string_view(first.device));
     });
     return all;
@@ -354,7 +354,7 @@ bool have_one_cause(const FindingGroup& a, const FindingGroup& b) {
     return std::tuple(group.first->verdict, group.devices, std::string_view(group.kind));
   };
   if (key(a) != key(b)) return false;
-  if (ended_a_program(*a.first)) return true;
+  if (ended_abnormally(*a.first)) return true;
   const auto techniques = [](const FindingGroup& group) {
     std::set<std::string> all;
     for (const Finding* each : group.members) all.insert(technique_of(*each));

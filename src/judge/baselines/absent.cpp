@@ -9,9 +9,9 @@
 namespace triptych::judge {
 namespace {
 
-Absent read_absent(const core::JsonNode& entry) {
-  refuse_other_keys(entry, {"device", "host", "reason", "expiry"});
-  Absent absent{.device = entry.at("device").text(), .reason = reason_of(entry)};
+AbsentDevice read_absent_device(const core::JsonNode& entry) {
+  refuse_unknown_keys(entry, {"device", "host", "reason", "expiry"});
+  AbsentDevice absent{.device = entry.at("device").text(), .reason = reason_of(entry)};
   if (entry.has("host")) absent.host = entry.at("host").text();
   if (entry.has("expiry")) absent.expiry = expiry_of(entry);
   if (matches_every_device(absent.device) && matches_every_host(absent.host)) {
@@ -23,11 +23,13 @@ Absent read_absent(const core::JsonNode& entry) {
 
 }  // namespace
 
-std::vector<Absent> read_absent(const std::filesystem::path& file) {
-  std::vector<Absent> result;
+std::vector<AbsentDevice> read_absent_devices(const std::filesystem::path& file) {
+  std::vector<AbsentDevice> result;
   const auto json = core::JsonFile::read(file);
   if (!json) return result;
-  for (const core::JsonNode& entry : json->root().elements()) result.push_back(read_absent(entry));
+  for (const core::JsonNode& entry : json->root().elements()) {
+    result.push_back(read_absent_device(entry));
+  }
   return result;
 }
 

@@ -9,7 +9,7 @@
 
 namespace triptych::judge {
 
-struct Absent {
+struct AbsentDevice {
   std::string device = {};  // glob for device ids
   std::string host = "*";   // glob for host names
   std::string reason = {};
@@ -19,6 +19,6 @@ struct Absent {
 // Reads [{device, reason}, …]; an entry may also have a `host` and an `expiry`. Returns an empty
 // list if the file does not exist. Throws InputError with file and line for an unknown key, a blank
 // reason, or an entry that excuses every device on every machine.
-[[nodiscard]] std::vector<Absent> read_absent(const std::filesystem::path& file);
+[[nodiscard]] std::vector<AbsentDevice> read_absent_devices(const std::filesystem::path& file);
 
 }  // namespace triptych::judge

@@ -59,18 +59,18 @@ void update_image(const record::Record& record, const core::Image& reference,
 // they are stored only for plans that check both images and times (the quick plan of each suite).
 // For these plans, the gate also compares the devices' images with the stored images.
 void update_images(const Accepted& accepted, const AcceptRequest& request, NextFolder& next) {
-  const bool keeps =
+  const bool stores_images =
       accepted.checks.contains(Check::image) && accepted.checks.contains(Check::timing);
   Update index(next, Layout::images);
   Json& table = index.object();
-  if (accepted.replaces_all) drop_all_but(table, accepted.scenes);
+  if (accepted.replaces_all) keep_only(table, accepted.scenes);
   std::set<std::string> done;
   for (const record::Record& record : accepted.measured) {
     if (!record::has_image(record)) continue;
     if (done.insert(record.scene).second) {
       const core::Image reference = request.truth(record);
       const ReferenceHash hash = reference_hash(reference);
-      if (keeps) update_image(record, reference, hash, next);
+      if (stores_images) update_image(record, reference, hash, next);
       // The entry of a scene contains one hash of the data for each voxel format. The devices of
       // this run may not have used all formats, so the hashes for the other formats are kept,
       // unless the reference image has changed.
@@ -82,16 +82,17 @@ void update_images(const Accepted& accepted, const AcceptRequest& request, NextF
     }
   }
   index.write(1);
-  std::set<std::string> kept;
-  for (const auto& item : table.items()) kept.insert(Layout::image(item.key()));
+  std::set<std::string> kept_images;
+  for (const auto& item : table.items()) kept_images.insert(Layout::image(item.key()));
   std::erase_if(next.files, [&](const auto& file) {
-    if (!file.first.starts_with("images/") || (keeps && kept.contains(file.first))) return false;
+    if (!file.first.starts_with("images/") || (stores_images && kept_images.contains(file.first)))
+      return false;
     next.lines.push_back(file.first + ": removed");
     return true;
   });
 }
 
-record::Checks all_of(record::Checks checks, const record::Checks& more) {
+record::Checks union_of(record::Checks checks, const record::Checks& more) {
   checks.insert(more.begin(), more.end());
   return checks;
 }
@@ -124,7 +125,7 @@ Json machines_of(const Accepted& accepted, const Manifest& stored) {
 // Returns the new manifest, without the file hashes.
 Json next_manifest(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
   // The hash and the checks of the plan are replaced only if the whole run is accepted.
-  const bool whole = accepted.replaces_all || stored.plan_hash.empty();
+  const bool replaces_plan = accepted.replaces_all || stored.plan_hash.empty();
   Json devices = stored.devices;
   for (const auto& [id, device] : accepted.devices) {
     std::set<std::string> drivers{device.statistics_key()};
@@ -133,12 +134,12 @@ Json next_manifest(const Accepted& accepted, const Manifest& stored, NextFolder&
     }
     devices[id] = drivers;
   }
-  return {
-      {"plan_hash", whole ? accepted.run.plan_hash : stored.plan_hash},
-      {"checks", record::text_of(whole ? accepted.checks : all_of(accepted.checks, stored.checks))},
-      {"machines", machines_of(accepted, stored)},
-      {"configurations", Update(next, Layout::counters).value().size()},
-      {"devices", devices}};
+  return {{"plan_hash", replaces_plan ? accepted.run.plan_hash : stored.plan_hash},
+          {"checks", record::text_of(replaces_plan ? accepted.checks
+                                                   : union_of(accepted.checks, stored.checks))},
+          {"machines", machines_of(accepted, stored)},
+          {"configurations", Update(next, Layout::counters).value().size()},
+          {"devices", devices}};
 }
 
 // Adds an entry to history.json. `manifest` is the new manifest, without the file hashes.
@@ -151,7 +152,7 @@ void append_history(const Accepted& accepted, const AcceptRequest& request, cons
   history.value().push_back({{"date", request.date},
                              {"reason", request.reason},
                              {"devices", ids},
-                             {"manifest", hash_of_statements(manifest)}});
+                             {"manifest", manifest_hash(manifest)}});
   next.files[Layout::history] = bytes_of(core::to_lines(history.value(), 1));
 }
 
@@ -165,7 +166,7 @@ void write_manifest(Json manifest, NextFolder& next) {
 
 // Returns a folder with all files that are stored now, or an empty folder if the stored files are
 // damaged and --drop discards them.
-NextFolder next_of(const Baselines& stored, const AcceptRequest& request) {
+NextFolder next_folder_of(const Baselines& stored, const AcceptRequest& request) {
   NextFolder next{.folder = stored.folder(), .files = {}, .lines = {}};
   if (!stored.problem().empty()) {
     if (request.drop && request.only.empty()) return next;
@@ -189,16 +190,16 @@ std::vector<std::string> accept(const record::Store& store, const std::string& r
   refuse_other_data(accepted, request);
   const WriterLock lock(root);
   const Baselines stored(root, request.plan);
-  NextFolder next = next_of(stored, request);
-  const Manifest manifest = next.files.empty() ? Manifest{} : stored.manifest();
+  NextFolder next = next_folder_of(stored, request);
+  const Manifest stored_manifest = next.files.empty() ? Manifest{} : stored.manifest();
   if (!next.files.empty()) refuse_part(accepted, stored, run, request);
   update_images(accepted, request, next);
   update_values(store, accepted, request, next);
   drop_skipped(accepted.skipped, accepted.devices, next);
-  update_lacking(accepted, manifest, next);
-  Json next_one = next_manifest(accepted, manifest, next);
-  append_history(accepted, request, next_one, next);
-  write_manifest(std::move(next_one), next);
+  update_lacking(accepted, stored_manifest, next);
+  Json new_manifest = next_manifest(accepted, stored_manifest, next);
+  append_history(accepted, request, new_manifest, next);
+  write_manifest(std::move(new_manifest), next);
   replace_folder(next.folder, next.files, request.on_written);
   return next.lines;
 }

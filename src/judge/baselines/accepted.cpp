@@ -13,8 +13,8 @@
 namespace triptych::judge {
 namespace {
 
-void refuse_unfit(const std::vector<record::Record>& records, const std::string& run,
-                  const AcceptRequest& request) {
+void refuse_unsuitable(const std::vector<record::Record>& records, const std::string& run,
+                       const AcceptRequest& request) {
   if (request.reason.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw core::InputError("`accept` needs a reason (--reason TEXT)");
   }
@@ -31,14 +31,14 @@ void refuse_unfit(const std::vector<record::Record>& records, const std::string&
   }
 }
 
-std::string plan_in_a_command(const AcceptRequest& request) {
+std::string quoted_plan_argument(const AcceptRequest& request) {
   return core::shell_quoted(request.argument.empty() ? record::plan_argument(request.plan)
                                                      : request.argument);
 }
 
 // Returns the devices on which something was measured. Only these devices become part of the
 // baselines.
-std::set<std::string> devices_that_measured(const std::vector<record::Record>& records) {
+std::set<std::string> devices_with_measurements(const std::vector<record::Record>& records) {
   std::set<std::string> devices;
   for (const record::Record& record : records) {
     if (record.outcome == record::Outcome::measured) devices.insert(record.device);
@@ -56,25 +56,27 @@ bool lacks_support(const record::Record& record) {
 Accepted select_accepted(const record::Store& store, const std::string& run,
                          const AcceptRequest& request) {
   const std::vector<record::Record> records = store.records(run);
-  refuse_unfit(records, run, request);
+  refuse_unsuitable(records, run, request);
   Accepted accepted;
   for (record::Run& each : store.runs()) {
     if (each.id == run) accepted.run = std::move(each);
   }
-  accepted.checks = checked_in(accepted.run);
+  accepted.checks = checks_of_run(accepted.run);
   accepted.replaces_all = request.only.empty();
-  const std::set<std::string> measuring = devices_that_measured(records);
+  const std::set<std::string> with_measurements = devices_with_measurements(records);
   for (const record::Record& record : records) {
     accepted.configurations.insert(record.configuration);
     accepted.scenes.insert(record.scene);
-    const bool wanted =
+    const bool selected =
         request.only.empty() || core::glob_matches(request.only, record.configuration);
-    if (wanted && record.outcome == record::Outcome::measured) accepted.measured.push_back(record);
-    const bool drops = request.drop && !request.only.empty();
-    if (wanted && drops && record.outcome == record::Outcome::skipped) {
+    if (selected && record.outcome == record::Outcome::measured) {
+      accepted.measured.push_back(record);
+    }
+    const bool drops_skipped = request.drop && !request.only.empty();
+    if (selected && drops_skipped && record.outcome == record::Outcome::skipped) {
       accepted.skipped.push_back(record);
     }
-    if (wanted && lacks_support(record) && measuring.contains(record.device)) {
+    if (selected && lacks_support(record) && with_measurements.contains(record.device)) {
       accepted.unsupported.push_back(record);
     }
   }
@@ -83,12 +85,14 @@ Accepted select_accepted(const record::Store& store, const std::string& run,
         fmt::format("run {}: nothing was measured{}", run,
                     request.only.empty() ? "" : " that matches " + request.only));
   }
-  std::set<std::string> told_of;
-  for (const record::Record& record : accepted.measured) told_of.insert(record.device);
-  for (const record::Record& record : accepted.skipped) told_of.insert(record.device);
-  for (const record::Record& record : accepted.unsupported) told_of.insert(record.device);
+  std::set<std::string> accepted_devices;
+  for (const record::Record& record : accepted.measured) accepted_devices.insert(record.device);
+  for (const record::Record& record : accepted.skipped) accepted_devices.insert(record.device);
+  for (const record::Record& record : accepted.unsupported) accepted_devices.insert(record.device);
   for (const auto& entry : store.devices(run)) {
-    if (told_of.contains(entry.device.id)) accepted.devices.emplace(entry.device.id, entry.device);
+    if (accepted_devices.contains(entry.device.id)) {
+      accepted.devices.emplace(entry.device.id, entry.device);
+    }
   }
   return accepted;
 }
@@ -97,12 +101,12 @@ void refuse_other_data(const Accepted& accepted, const AcceptRequest& request) {
   if (!request.data_hash) return;
   for (const record::Record& record : accepted.measured) {
     if (record.data_hash.empty()) continue;
-    const std::string now = request.data_hash(record);
-    if (now.empty() || now == record.data_hash) continue;
+    const std::string current_hash = request.data_hash(record);
+    if (current_hash.empty() || current_hash == record.data_hash) continue;
     throw core::InputError(fmt::format(
         "the input data of {} have changed since run {} (content hash {}, now {}); restore the "
         "data, or measure again",
-        record.configuration, record.run, record.data_hash, now));
+        record.configuration, record.run, record.data_hash, current_hash));
   }
 }
 
@@ -118,7 +122,7 @@ void refuse_part(const Accepted& accepted, const Baselines& stored, const std::s
       "triptych run {} --resume{}, accept some configurations with --only GLOB, or use --drop if "
       "the plan no longer contains the missing configurations",
       run, missing.size(), known.size(), missing.front(), missing.size() > 1 ? "; …" : "",
-      plan_in_a_command(request), request.store_option));
+      quoted_plan_argument(request), request.store_option));
 }
 
 void refuse_incomplete(const record::Store& store, const Accepted& accepted,
@@ -126,20 +130,20 @@ void refuse_incomplete(const record::Store& store, const Accepted& accepted,
   if (!accepted.replaces_all || request.drop) return;
   const std::vector<std::string> planned = store.planned(accepted.run);
   for (const std::string& device : record::devices_of(accepted.run.begun)) {
-    const std::set<std::string> there = store.configurations(accepted.run.id, device);
+    const std::set<std::string> recorded = store.configurations(accepted.run.id, device);
     std::vector<std::string> missing;
-    std::ranges::set_difference(planned, there, std::back_inserter(missing));
+    std::ranges::set_difference(planned, recorded, std::back_inserter(missing));
     if (missing.empty()) continue;
     throw core::InputError(fmt::format(
         "run {} is incomplete: of the {} configurations on {}, {} have no record ({}{}); finish "
         "the run with triptych run {} --resume{}, or accept the measured configurations with "
         "--only GLOB or --drop",
         accepted.run.id, planned.size(), device, missing.size(), missing.front(),
-        missing.size() > 1 ? "; …" : "", plan_in_a_command(request), request.store_option));
+        missing.size() > 1 ? "; …" : "", quoted_plan_argument(request), request.store_option));
   }
 }
 
-record::Checks checked_in(const record::Run& run) {
+record::Checks checks_of_run(const record::Run& run) {
   if (!run.checks.empty()) return run.checks;
   return {record::Check::image, record::Check::counters, record::Check::statistics,
           record::Check::cost,  record::Check::memory,   record::Check::timing};

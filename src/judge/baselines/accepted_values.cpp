@@ -22,7 +22,7 @@ namespace triptych::judge {
 using core::Json;
 using record::Check;
 
-void drop_all_but(Json& object, const std::set<std::string>& kept) {
+void keep_only(Json& object, const std::set<std::string>& kept) {
   for (auto item = object.begin(); item != object.end();) {
     item = kept.contains(item.key()) ? std::next(item) : object.erase(item);
   }
@@ -32,14 +32,14 @@ namespace {
 
 // Prepares a table {configuration: …} for new values. If the run replaces everything, removes the
 // configurations that the run does not contain.
-Json& table_of(Json& table, const Accepted& accepted) {
+Json& prepared_table(Json& table, const Accepted& accepted) {
   if (!table.is_object()) table = Json::object();
-  if (accepted.replaces_all) drop_all_but(table, accepted.configurations);
+  if (accepted.replaces_all) keep_only(table, accepted.configurations);
   return table;
 }
 
 void update_counters(const Accepted& accepted, Update& update) {
-  Json& table = table_of(update.value(), accepted);
+  Json& table = prepared_table(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
     erase_from(table, record.configuration, record.device);
     Json& counters = table[record.configuration];
@@ -49,7 +49,7 @@ void update_counters(const Accepted& accepted, Update& update) {
 }
 
 void update_memory(const Accepted& accepted, Update& update) {
-  Json& table = table_of(update.value(), accepted);
+  Json& table = prepared_table(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
     erase_from(table, record.configuration, record.device);
     if (!record.memory.empty()) table[record.configuration][record.device] = record.memory;
@@ -66,8 +66,8 @@ bool has_counters(const Json& table, const record::Record& record) {
 // Counters are stored by device, not by driver version. If the accepted driver version does not
 // support a configuration that another version supports, the counters stay, and lacking.json lists
 // the configuration for this version.
-void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& counters,
-                  Update& update) {
+void update_lacking_table(const Accepted& accepted, const Manifest& stored, const Json& counters,
+                          Update& update) {
   Json& table = update.object();
   std::map<std::string, std::set<std::string>> lacking;
   for (const auto& [driver, configurations] : table.items()) {
@@ -81,9 +81,9 @@ void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& 
   }
   for (const record::Record& record : accepted.unsupported) {
     const auto known = stored.devices.find(record.device);
-    const bool others = known != stored.devices.end() &&
-                        known->second.size() > known->second.count(driver_of(record));
-    if (others && has_counters(counters, record)) {
+    const bool has_other_drivers = known != stored.devices.end() &&
+                                   known->second.size() > known->second.count(driver_of(record));
+    if (has_other_drivers && has_counters(counters, record)) {
       lacking[driver_of(record)].insert(record.configuration);
     }
   }
@@ -98,7 +98,7 @@ void note_lacking(const Accepted& accepted, const Manifest& stored, const Json& 
 // exact ray integrals).
 void update_errors(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
-  Json& table = table_of(update.value(), accepted);
+  Json& table = prepared_table(update.value(), accepted);
   for (const record::Record& record : accepted.measured) {
     const accuracy::LimitImage* limit = request.limit(record);
     if (limit == nullptr) erase_from(table, record.configuration, record.device);
@@ -115,9 +115,9 @@ void update_errors(const record::Store& store, const Accepted& accepted,
 // the run, including cases that failed.
 void update_scores(const record::Store& store, const Accepted& accepted,
                    const AcceptRequest& request, Update& update) {
-  Json& table = table_of(update.value(), accepted);
+  Json& table = prepared_table(update.value(), accepted);
   const std::vector<record::Record> records = store.records(accepted.run.id);
-  for (const StressScored& scored : score_stress(store, records, *request.stress)) {
+  for (const ScoredRecord& scored : score_stress(store, records, *request.stress)) {
     const std::string& configuration = scored.record->configuration;
     if (!request.only.empty() && !core::glob_matches(request.only, configuration)) continue;
     table[configuration][scored.record->device] = scored.score.points();
@@ -126,7 +126,7 @@ void update_scores(const record::Store& store, const Accepted& accepted,
 
 // Removes the counts that are not stored, because they differ between two processes of the same
 // program. The gate only shows these counts.
-record::Counts kept_of(record::Counts cost) {
+record::Counts comparable_parts(record::Counts cost) {
   cost.erase("libc");
   cost.erase("program");
   return cost;
@@ -143,26 +143,27 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
     if (record.device != device.id || record.cost.empty()) continue;
     Json& file = update.object();
     if (file.value("counted_by", "") != record.counted_by) {
-      const bool loses = !accepted.replaces_all && file.contains("configurations");
-      if (counted || loses) {
-        const std::string other = file.value("counted_by", "");
+      const bool loses_values = !accepted.replaces_all && file.contains("configurations");
+      if (counted || loses_values) {
+        const std::string other_emulator = file.value("counted_by", "");
         throw core::InputError(
             counted ? fmt::format("run {}: the instruction counts for {} are not comparable, "
                                   "because {} counted some of them and {} the others; measure "
                                   "the plan again with one emulator",
-                                  record.run, device.id, other, record.counted_by)
+                                  record.run, device.id, other_emulator, record.counted_by)
                     : fmt::format("run {}: the instruction counts for {} are not comparable with "
                                   "the stored counts, because they were counted by {}, but the "
                                   "stored counts by {}; accept the whole plan, without --only",
-                                  record.run, device.id, record.counted_by, other));
+                                  record.run, device.id, record.counted_by, other_emulator));
       }
       file = {{"device", device.id},
               {"driver_version", device.driver_version},
               {"counted_by", record.counted_by}};
     }
     counted = true;
-    table_of(file["configurations"], accepted)[record.configuration] = {
-        {"frame", kept_of(record.cost)}, {"prepare", kept_of(record.prepare_cost)}};
+    prepared_table(file["configurations"], accepted)[record.configuration] = {
+        {"frame", comparable_parts(record.cost)},
+        {"prepare", comparable_parts(record.prepare_cost)}};
   }
   update.write(3);
 }
@@ -170,10 +171,10 @@ void update_cost(const Accepted& accepted, const record::Device& device, NextFol
 // Writes the code statistics, except for infinite values, which JSON cannot represent.
 void update_code(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::code(device));
-  bool any = false;
+  bool has_code = false;
   for (const record::Record& record : accepted.measured) {
     if (record.device != device.id || record.code.empty()) continue;
-    any = true;
+    has_code = true;
     Json& file = update.object();
     file["device"] = device.id;
     file["driver_version"] = device.driver_version;
@@ -185,9 +186,9 @@ void update_code(const Accepted& accepted, const record::Device& device, NextFol
         if (std::isfinite(value)) entry[statistic] = value;
       }
     }
-    table_of(file["configurations"], accepted)[record.configuration] = std::move(code);
+    prepared_table(file["configurations"], accepted)[record.configuration] = std::move(code);
   }
-  if (any) update.write(4);
+  if (has_code) update.write(4);
 }
 
 // Writes the pipeline statistics. If an untimed run did not read the statistics of a configuration,
@@ -199,25 +200,25 @@ void update_statistics(const Accepted& accepted, const record::Device& device, N
   for (const auto& [statistic, worth] : device.statistics_calibration) {
     update.object()["calibration"][statistic] = worth;
   }
-  Json& table = table_of(update.object()["configurations"], accepted);
-  bool tells = !table.empty();
+  Json& table = prepared_table(update.object()["configurations"], accepted);
+  bool has_statistics = !table.empty();
   for (const record::Record& record : accepted.measured) {
     if (record.device != device.id) continue;
     if (record.untimed() && record.statistics.empty()) continue;
     table[record.configuration] = record.statistics;
-    tells = tells || !record.statistics.empty();
+    has_statistics = has_statistics || !record.statistics.empty();
   }
-  if (tells) update.write(3);
+  if (has_statistics) update.write(3);
 }
 
 void update_timings(const Accepted& accepted, const record::Device& device, NextFolder& next) {
   Update update(next, Layout::timings(device));
   update.object()["device"] = device.key();
-  Json& table = table_of(update.object()["configurations"], accepted);
-  std::size_t kept = 0;
+  Json& table = prepared_table(update.object()["configurations"], accepted);
+  std::size_t kept_values = 0;
   for (const record::Record& record : accepted.measured) {
     if (record.device != device.id) continue;
-    if (record.untimed() && table.contains(record.configuration)) ++kept;
+    if (record.untimed() && table.contains(record.configuration)) ++kept_values;
     const std::vector<double>& times = record.time_ns();
     if (times.empty()) continue;
     table[record.configuration] = {{"clock", record.clock()},
@@ -227,11 +228,11 @@ void update_timings(const Accepted& accepted, const record::Device& device, Next
                                    {"kernel_hash", record.kernel_hash}};
   }
   if (!table.empty()) update.write(2);
-  if (kept > 0) {
+  if (kept_values > 0) {
     next.lines.push_back(
         fmt::format("{}: kept the stored times and statistics of {} configurations, because the "
                     "run was untimed",
-                    device.id, kept));
+                    device.id, kept_values));
   }
 }
 
@@ -240,7 +241,7 @@ void update_timings(const Accepted& accepted, const record::Device& device, Next
 void update_lacking(const Accepted& accepted, const Manifest& stored, NextFolder& next) {
   const Update counters(next, Layout::counters);
   Update update(next, Layout::lacking);
-  note_lacking(accepted, stored, counters.value(), update);
+  update_lacking_table(accepted, stored, counters.value(), update);
   if (update.value().empty()) {
     next.files.erase(Layout::lacking);
   } else {

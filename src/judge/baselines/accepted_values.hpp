@@ -11,7 +11,7 @@
 namespace triptych::judge {
 
 // Removes all members of the object whose names are not in `kept`.
-void drop_all_but(core::Json& object, const std::set<std::string>& kept);
+void keep_only(core::Json& object, const std::set<std::string>& kept);
 
 // Writes lacking.json: the configurations that a driver version does not support, although another
 // driver version for the same device does. `stored` is the manifest before this run. Call this

@@ -73,9 +73,9 @@ Manifest read_manifest(const core::JsonNode& node) {
 }
 
 StoredImage read_stored_image(const core::JsonNode& node) {
-  const core::JsonNode both = node.at("reference");
-  const auto hashes = both.elements();
-  if (hashes.size() != 2) both.fail("expected two hashes");
+  const core::JsonNode reference = node.at("reference");
+  const auto hashes = reference.elements();
+  if (hashes.size() != 2) reference.fail("expected two hashes");
   StoredImage image{{hashes[0].text(), hashes[1].text()}, {}};
   for (const auto& [name, value] : node.members()) {
     if (name.starts_with("data")) image.data.emplace(name, value.text());
@@ -113,12 +113,13 @@ DriverCost read_cost(const core::JsonNode& node) {
 }
 
 DriverCode read_code(const core::JsonNode& node) {
-  const auto read_one = [](const core::JsonNode& code) {
+  const auto read_configuration = [](const core::JsonNode& code) {
     return read_members<record::Executable>(code, read_executable);
   };
-  return {.device = node.at("device").text(),
-          .driver_version = node.at("driver_version").text(),
-          .configurations = read_members<record::Code>(node.at("configurations"), read_one)};
+  return {
+      .device = node.at("device").text(),
+      .driver_version = node.at("driver_version").text(),
+      .configurations = read_members<record::Code>(node.at("configurations"), read_configuration)};
 }
 
 StoredTiming read_timing(const core::JsonNode& node) {
@@ -143,19 +144,19 @@ std::string first_change(const fs::path& folder, const Manifest& manifest) {
     if (core::content_hash(core::read_file(file)) != hash)
       return name + " was changed after it was accepted";
   }
-  std::set<std::string> others;
+  std::set<std::string> unlisted;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).generic_string();
     if (!entry.is_directory() && name != Layout::manifest && !manifest.files.contains(name)) {
-      others.insert(name);
+      unlisted.insert(name);
     }
   }
-  return others.empty() ? std::string() : *others.begin() + " does not belong to the baselines";
+  return unlisted.empty() ? std::string() : *unlisted.begin() + " does not belong to the baselines";
 }
 
 double log_spread(std::vector<double> times_ns) {
-  constexpr double between_processes = 0.005;
-  constexpr double normal = 1.4826;
+  constexpr double process_spread = 0.005;
+  constexpr double mad_factor = 1.4826;
   std::ranges::sort(times_ns);
   std::vector<double> logarithms;
   double step = std::numeric_limits<double>::infinity();
@@ -168,7 +169,7 @@ double log_spread(std::vector<double> times_ns) {
   if (!std::isfinite(step)) step = 0;
   const double centre = estimation::median(logarithms);
   for (double& value : logarithms) value = std::abs(value - centre);
-  return std::max({normal * estimation::median(logarithms), step, between_processes});
+  return std::max({mad_factor * estimation::median(logarithms), step, process_spread});
 }
 
 }  // namespace triptych::judge

@@ -44,8 +44,10 @@ ByName<Value> read_device_table(const std::filesystem::path& path, std::string_v
                                 const Read& read) {
   const auto file = core::JsonFile::read(path);
   if (!file) return {};
-  const core::JsonNode named = file->root().at("device");
-  if (named.text() != device) named.fail(fmt::format("expected the device '{}'", device));
+  const core::JsonNode device_node = file->root().at("device");
+  if (device_node.text() != device) {
+    device_node.fail(fmt::format("expected the device '{}'", device));
+  }
   return read_members<Value>(file->root().at("configurations"), read);
 }
 

@@ -59,7 +59,7 @@ struct Baselines::Cache {
   std::map<fs::path, ByName<record::StatisticWorth>> calibrations;
   std::map<fs::path, ByName<StoredTiming>> timings;
   std::optional<std::vector<Waiver>> waivers;
-  std::optional<std::vector<Absent>> absent;
+  std::optional<std::vector<AbsentDevice>> absent_devices;
 
   // Returns the content of a file of the form {configuration: …}, which is read only once.
   template <typename Value, typename Read>
@@ -250,9 +250,9 @@ std::vector<std::string> Baselines::configurations() const {
   return result;
 }
 
-const std::vector<Absent>& Baselines::absent() const {
-  if (!cache_->absent) cache_->absent = read_absent(absent_file());
-  return *cache_->absent;
+const std::vector<AbsentDevice>& Baselines::absent_devices() const {
+  if (!cache_->absent_devices) cache_->absent_devices = read_absent_devices(absent_file());
+  return *cache_->absent_devices;
 }
 
 const std::vector<Waiver>& Baselines::waivers(const std::string& today) const {

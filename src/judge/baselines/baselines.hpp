@@ -165,7 +165,7 @@ class Baselines {
   [[nodiscard]] const std::vector<Waiver>& waivers(const std::string& today) const;
   // Returns the content of absent.json, which is next to waivers.json and lists the devices that
   // are absent from certain machines on purpose.
-  [[nodiscard]] const std::vector<Absent>& absent() const;
+  [[nodiscard]] const std::vector<AbsentDevice>& absent_devices() const;
   [[nodiscard]] std::filesystem::path absent_file() const { return root_ / "absent.json"; }
 
  private:
@@ -185,7 +185,7 @@ class Baselines {
 
 // Returns the checks of the run's plan. If the run does not store them, returns image, counters,
 // statistics, cost, memory and timing.
-[[nodiscard]] record::Checks checked_in(const record::Run& run);
+[[nodiscard]] record::Checks checks_of_run(const record::Run& run);
 
 struct AcceptRequest {
   std::string plan;

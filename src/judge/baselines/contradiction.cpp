@@ -29,29 +29,29 @@ std::set<std::string> devices_of(const fs::path& file) {
 }
 
 // The content of counters.json: {configuration: {counter: {device: …}}}.
-struct Counted {
+struct CounterTotals {
   std::size_t configurations = 0;
   std::set<std::string> devices;
 };
 
-Counted counted_in(const fs::path& folder) {
-  Counted counted;
+CounterTotals counter_totals(const fs::path& folder) {
+  CounterTotals totals;
   const auto json = core::JsonFile::read(folder / Layout::counters);
-  if (!json) return counted;
+  if (!json) return totals;
   for (const auto& [configuration, counters] : json->root().members()) {
-    ++counted.configurations;
+    ++totals.configurations;
     for (const auto& [counter, values] : counters.members()) {
       for (const auto& [device, value] : values.members()) {
         static_cast<void>(
             value.whole_number());  // throws an error with the line of an invalid value
-        counted.devices.insert(device);
+        totals.devices.insert(device);
       }
     }
   }
-  return counted;
+  return totals;
 }
 
-std::string lacks(const std::string& what) {
+std::string not_listed(const std::string& what) {
   return fmt::format("{} does not list {}", Layout::manifest, what);
 }
 
@@ -65,19 +65,19 @@ std::string unknown_driver(const fs::path& folder, const Manifest& manifest) {
     for (const auto& entry : fs::directory_iterator(folder / subfolder)) {
       const fs::path file = entry.path();
       if (file.extension() != ".json" || drivers.contains(file.stem().string())) continue;
-      return lacks(subfolder + file.filename().string());
+      return not_listed(subfolder + file.filename().string());
     }
   }
   for (const std::set<std::string>& machine : manifest.machines) {
     for (const std::string& driver : machine) {
       if (!drivers.contains(driver))
-        return lacks("the driver " + driver + " for any device, but lists it for a machine");
+        return not_listed("the driver " + driver + " for any device, but lists it for a machine");
     }
   }
   if (const auto lacking = core::JsonFile::read(folder / Layout::lacking)) {
     for (const auto& [driver, configurations] : lacking->root().members()) {
       if (!drivers.contains(driver)) {
-        return lacks(
+        return not_listed(
             fmt::format("the driver {}, although {} contains it", driver, Layout::lacking));
       }
     }
@@ -89,17 +89,18 @@ std::string unknown_device(const Manifest& manifest, const std::set<std::string>
                            const char* file) {
   for (const std::string& id : devices) {
     if (!manifest.devices.contains(id)) {
-      return lacks(fmt::format("the device {}, although {} contains it", id, file));
+      return not_listed(fmt::format("the device {}, although {} contains it", id, file));
     }
   }
   return {};
 }
 
-std::string lost_check(const fs::path& folder, const Manifest& manifest) {
+std::string unlisted_check(const fs::path& folder, const Manifest& manifest) {
   for (const auto& [check, file] :
        {std::pair{Check::accuracy, Layout::errors}, std::pair{Check::stress, Layout::scores}}) {
     if (fs::exists(folder / file) && !manifest.checks.contains(check)) {
-      return lacks(fmt::format("the check {}, although {} exists", record::name_of(check), file));
+      return not_listed(
+          fmt::format("the check {}, although {} exists", record::name_of(check), file));
     }
   }
   return {};
@@ -107,13 +108,13 @@ std::string lost_check(const fs::path& folder, const Manifest& manifest) {
 
 // Compares the manifest with the hash in the last entry of history.json. Entries that were written
 // by older versions of Triptych have no hash.
-std::string other_statements(const fs::path& folder) {
+std::string unaccepted_manifest(const fs::path& folder) {
   const auto manifest = core::JsonFile::read(folder / Layout::manifest);
   const auto history = core::JsonFile::read(folder / Layout::history);
   if (!manifest || !history) return {};
   const auto entries = history->root().elements();
   if (entries.empty() || !entries.back().has("manifest")) return {};
-  if (entries.back().at("manifest").text() == hash_of_statements(manifest->value())) return {};
+  if (entries.back().at("manifest").text() == manifest_hash(manifest->value())) return {};
   return fmt::format("{} is not the most recently accepted manifest, according to {}",
                      Layout::manifest, Layout::history);
 }
@@ -122,23 +123,23 @@ std::string other_statements(const fs::path& folder) {
 
 std::string contradiction_in(const fs::path& folder, const Manifest& manifest) {
   std::string found = unknown_driver(folder, manifest);
-  const auto look = [&](std::string next) {
+  const auto keep_first = [&](std::string next) {
     if (found.empty()) found = std::move(next);
   };
-  const Counted counted = counted_in(folder);
-  look(unknown_device(manifest, counted.devices, Layout::counters));
-  look(unknown_device(manifest, devices_of(folder / Layout::memory), Layout::memory));
-  look(lost_check(folder, manifest));
-  if (counted.configurations != manifest.configurations) {
-    look(fmt::format("{} gives the number of configurations as {}, but {} contains {}",
-                     Layout::manifest, manifest.configurations, Layout::counters,
-                     counted.configurations));
+  const CounterTotals totals = counter_totals(folder);
+  keep_first(unknown_device(manifest, totals.devices, Layout::counters));
+  keep_first(unknown_device(manifest, devices_of(folder / Layout::memory), Layout::memory));
+  keep_first(unlisted_check(folder, manifest));
+  if (totals.configurations != manifest.configurations) {
+    keep_first(fmt::format("{} gives the number of configurations as {}, but {} contains {}",
+                           Layout::manifest, manifest.configurations, Layout::counters,
+                           totals.configurations));
   }
-  look(other_statements(folder));
+  keep_first(unaccepted_manifest(folder));
   return found;
 }
 
-std::string hash_of_statements(core::Json manifest) {
+std::string manifest_hash(core::Json manifest) {
   manifest.erase("files");
   return core::content_hash(core::json_text(manifest));
 }

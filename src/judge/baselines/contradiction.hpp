@@ -20,6 +20,6 @@ namespace triptych::judge {
 
 // Returns the hash of a manifest without its list of file hashes. Each entry of history.json
 // contains this hash for the manifest that was written together with the entry.
-[[nodiscard]] std::string hash_of_statements(core::Json manifest);
+[[nodiscard]] std::string manifest_hash(core::Json manifest);
 
 }  // namespace triptych::judge

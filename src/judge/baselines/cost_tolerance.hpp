@@ -14,8 +14,8 @@ struct CostTolerance {
   std::string_view part;       // "device_code" or "driver"
   std::string_view device;     // glob
   std::string_view technique;  // glob
-  double share = 0;            // share of the whole frame's stored count (device code and driver)
-  double own = 0;              // plus this share of the stored count of this part alone
+  double frame_share = 0;      // share of the whole frame's stored count (device code and driver)
+  double part_share = 0;       // plus this share of the stored count of this part alone
   double count = 0;            // plus this many instructions, regardless of the size of the frame
 };
 
@@ -33,7 +33,7 @@ struct CostTolerance {
 //     into the code and therefore has to compile again. LLVM iterates over tables in the order of
 //     addresses, so the driver's count differed by 0.16 to 0.55 % between two runs. In frames in
 //     which nothing is compiled, the driver executes only a hundredth of that number of
-//     instructions, so `own` adds next to nothing.
+//     instructions, so `part_share` adds next to nothing.
 //   - All drivers: the count depends on what the process drew before. The difference is 260 to
 //     1,410 instructions on OpenGL, and 4,800 instructions for `tiles` on lavapipe (1.8 % of the
 //     driver's count). This must be tolerated, because a change to one technique must not affect
@@ -56,7 +56,7 @@ inline constexpr std::array cost_tolerances{
   for (const CostTolerance& each : cost_tolerances) {
     if (each.part == part && core::glob_matches(each.device, device) &&
         core::glob_matches(each.technique, technique)) {
-      return each.share * frame + each.own * stored + each.count;
+      return each.frame_share * frame + each.part_share * stored + each.count;
     }
   }
   return 0;

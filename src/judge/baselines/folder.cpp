@@ -19,7 +19,7 @@ namespace {
 
 // Converts file-system errors to core::IoError.
 template <typename Act>
-void act_on(const fs::path& path, const Act& act) {
+void with_io_errors(const fs::path& path, const Act& act) {
   try {
     act();
   } catch (const fs::filesystem_error& error) {
@@ -30,12 +30,12 @@ void act_on(const fs::path& path, const Act& act) {
 // Flushes a file or folder to the disk.
 void flush(const fs::path& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  const int failed = fd < 0 || ::fsync(fd) != 0 ? errno : 0;
+  const int error_code = fd < 0 || ::fsync(fd) != 0 ? errno : 0;
   if (fd >= 0) ::close(fd);
   // The error EINVAL is ignored, because some file systems cannot flush a folder.
-  if (failed != 0 && failed != EINVAL) {
+  if (error_code != 0 && error_code != EINVAL) {
     throw core::IoError(
-        fmt::format("{}: {}", path.string(), std::generic_category().message(failed)));
+        fmt::format("{}: {}", path.string(), std::generic_category().message(error_code)));
   }
 }
 
@@ -53,29 +53,29 @@ void write_files(const fs::path& folder, const Files& files,
   flush(folder);
 }
 
-bool exchange(const fs::path& one, const fs::path& other) {
-  return ::renameat2(AT_FDCWD, one.c_str(), AT_FDCWD, other.c_str(), RENAME_EXCHANGE) == 0;
+bool exchange_folders(const fs::path& a, const fs::path& b) {
+  return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
 }
 
-void replace_one_by_one(const fs::path& folder, const Files& files) {
+void replace_file_by_file(const fs::path& folder, const Files& files) {
   for (const auto& [name, content] : files) {
     if (name == Layout::manifest) continue;
     fs::create_directories((folder / name).parent_path());
     core::write_file(content, folder / name);
   }
-  std::vector<fs::path> others;
+  std::vector<fs::path> obsolete;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string name = entry.path().lexically_relative(folder).generic_string();
-    if (!entry.is_directory() && !files.contains(name)) others.push_back(entry.path());
+    if (!entry.is_directory() && !files.contains(name)) obsolete.push_back(entry.path());
   }
-  for (const fs::path& file : others) fs::remove(file);
+  for (const fs::path& file : obsolete) fs::remove(file);
   core::write_file(files.at(Layout::manifest), folder / Layout::manifest);
 }
 
 }  // namespace
 
 WriterLock::WriterLock(const fs::path& root) : fd_(-1) {
-  act_on(root, [&] { fs::create_directories(root); });
+  with_io_errors(root, [&] { fs::create_directories(root); });
   fd_ = ::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   // Any other error means that this folder cannot be locked at all, so no other process has locked
   // it either.
@@ -92,19 +92,19 @@ WriterLock::~WriterLock() {
 
 void replace_folder(const fs::path& folder, const Files& files,
                     const std::function<void(const std::string&)>& on_written) {
-  const fs::path aside = Layout::aside(folder);
-  act_on(aside, [&] {
-    fs::remove_all(aside);  // may be left over from a process that was killed
-    fs::create_directories(aside);
-    write_files(aside, files, on_written);
+  const fs::path staging = Layout::staging_folder(folder);
+  with_io_errors(staging, [&] {
+    fs::remove_all(staging);  // may be left over from a process that was killed
+    fs::create_directories(staging);
+    write_files(staging, files, on_written);
     if (on_written) on_written({});
     if (!fs::exists(folder)) {
-      fs::rename(aside, folder);
-    } else if (!exchange(aside, folder)) {
-      replace_one_by_one(folder, files);
+      fs::rename(staging, folder);
+    } else if (!exchange_folders(staging, folder)) {
+      replace_file_by_file(folder, files);
     }
     flush(folder.parent_path());
-    fs::remove_all(aside);
+    fs::remove_all(staging);
   });
 }
 

@@ -27,8 +27,8 @@ class WriterLock {
 };
 
 // Replaces the content of the folder with these files. The files are written to a folder next to it
-// (Layout::aside) and flushed to the disk. Then the two folders are exchanged atomically, so a
-// process that is killed before this step changes nothing. If the file system cannot exchange
+// (Layout::staging_folder) and flushed to the disk. Then the two folders are exchanged atomically,
+// so a process that is killed before this step changes nothing. If the file system cannot exchange
 // folders, the files are written one by one, the manifest last; the checksums in the manifest
 // reveal whether a process was killed before it finished. See AcceptRequest for `on_written`.
 // Throws IoError.

@@ -8,10 +8,10 @@ namespace triptych::judge {
 namespace {
 
 void compare(FrameChange& change, std::string_view name, Unit unit, double before, double now,
-             double tolerated) {
-  if (std::abs(now - before) <= tolerated) return;
-  (now > before ? change.more : change.less) = true;
-  change.changes.push_back({std::string(name), unit, before, now, {}, tolerated});
+             double tolerance) {
+  if (std::abs(now - before) <= tolerance) return;
+  (now > before ? change.increased : change.decreased) = true;
+  change.changes.push_back({std::string(name), unit, before, now, {}, tolerance});
 }
 
 }  // namespace
@@ -22,7 +22,7 @@ std::optional<double> count_of(const record::Counts& counts, std::string_view na
   return static_cast<double>(found->second);
 }
 
-double frame_of(const record::Counts& cost) {
+double frame_instructions(const record::Counts& cost) {
   double sum = 0;
   for (const std::string_view part : cost_parts) sum += count_of(cost, part).value_or(0);
   return sum;
@@ -30,7 +30,7 @@ double frame_of(const record::Counts& cost) {
 
 FrameChange frame_change(const record::Record& now, const record::Counts& before) {
   FrameChange change;
-  const double frame = frame_of(before);
+  const double frame = frame_instructions(before);
   for (const std::string_view part : cost_parts) {
     const double stored = count_of(before, part).value_or(0);
     compare(change, part, Unit::instructions, stored, count_of(now.cost, part).value_or(0),
@@ -39,8 +39,8 @@ FrameChange frame_change(const record::Record& now, const record::Counts& before
   const auto misses = count_of(before, "misses");
   const auto misses_now = count_of(now.cost, "misses");
   if (misses && misses_now) {
-    if (const auto tolerated = misses_tolerance(now.technique, *misses)) {
-      compare(change, "misses", Unit::misses, *misses, *misses_now, *tolerated);
+    if (const auto tolerance = misses_tolerance(now.technique, *misses)) {
+      compare(change, "misses", Unit::misses, *misses, *misses_now, *tolerance);
     }
   }
   const auto allocations = count_of(before, "allocations");

@@ -17,11 +17,11 @@ inline constexpr std::array<std::string_view, 2> cost_parts{"device_code", "driv
 
 [[nodiscard]] std::optional<double> count_of(const record::Counts& counts, std::string_view name);
 // Returns the number of instructions of the whole frame: the sum over cost_parts.
-[[nodiscard]] double frame_of(const record::Counts& cost);
+[[nodiscard]] double frame_instructions(const record::Counts& cost);
 
 struct FrameChange {
-  bool more = false;            // the count of some part increased by more than its tolerance
-  bool less = false;            // the count of some part decreased by more than its tolerance
+  bool increased = false;       // the count of some part increased by more than its tolerance
+  bool decreased = false;       // the count of some part decreased by more than its tolerance
   std::vector<Change> changes;  // changed parts and, if there are any, changed allocations
 };
 

@@ -45,7 +45,7 @@ struct Layout {
   }
   // Returns the temporary folder to which `accept` writes before it replaces `folder`. It remains
   // only if `accept` was killed.
-  [[nodiscard]] static std::filesystem::path aside(const std::filesystem::path& folder) {
+  [[nodiscard]] static std::filesystem::path staging_folder(const std::filesystem::path& folder) {
     return folder.parent_path() / ("." + folder.filename().string() + ".accepting");
   }
 };

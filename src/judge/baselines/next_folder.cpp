@@ -15,14 +15,14 @@ namespace {
 
 using core::Json;
 
-constexpr std::size_t listed_values = 40;
+constexpr std::size_t most_listed_values = 40;
 
-Json flat(const Json& value) {
+Json flattened(const Json& value) {
   return value.is_null() ? Json::object() : value.flatten();
 }
 
 // Returns a JSON pointer without the leading slash and with its escape sequences decoded.
-std::string readable(std::string pointer) {
+std::string unescaped_pointer(std::string pointer) {
   constexpr std::array<std::pair<std::string_view, char>, 2> escapes{{{"~1", '/'}, {"~0", '~'}}};
   for (const auto& [escape, character] : escapes) {
     for (auto at = pointer.find(escape); at != std::string::npos;
@@ -60,22 +60,22 @@ void Update::write(int depth) const {
 }
 
 void Update::describe() const {
-  const Json before = flat(before_);
-  const Json after = flat(after_);
+  const Json before = flattened(before_);
+  const Json after = flattened(after_);
   std::vector<std::string> values;
   std::size_t added = 0;
   for (const auto& item : after.items()) {
     const auto old = before.find(item.key());
     if (old == before.end()) ++added;
     if (old == before.end() || *old == item.value()) continue;
-    values.push_back(fmt::format("  {}: {} → {}", readable(item.key()), core::json_text(*old),
-                                 core::json_text(item.value())));
+    values.push_back(fmt::format("  {}: {} → {}", unescaped_pointer(item.key()),
+                                 core::json_text(*old), core::json_text(item.value())));
   }
   const auto removed = std::ranges::count_if(
       before.items(), [&](const auto& item) { return !after.contains(item.key()); });
   next_.lines.push_back(
       fmt::format("{}: {} changed, {} added, {} removed", name_, values.size(), added, removed));
-  const auto shown = std::min(std::ssize(values), static_cast<std::ptrdiff_t>(listed_values));
+  const auto shown = std::min(std::ssize(values), static_cast<std::ptrdiff_t>(most_listed_values));
   next_.lines.insert(next_.lines.end(), values.begin(), values.begin() + shown);
   if (std::ssize(values) > shown) {
     next_.lines.push_back(fmt::format("  … and {} more", std::ssize(values) - shown));

@@ -19,8 +19,8 @@ struct NextFolder {
   Files files;                     // the new files
   std::vector<std::string> lines;  // the changes, one per line
 
-  void drop_folder(std::string_view start) {
-    std::erase_if(files, [&](const auto& file) { return file.first.starts_with(start); });
+  void drop_folder(std::string_view prefix) {
+    std::erase_if(files, [&](const auto& file) { return file.first.starts_with(prefix); });
   }
 };
 

@@ -23,10 +23,10 @@ std::chrono::year_month_day date_of(std::string_view text) {
 
 // Returns whether `text` has the form YYYY-MM-DD and is a valid calendar date.
 bool is_iso_date(std::string_view text) {
-  constexpr std::string_view shape = "dddd-dd-dd";
-  const bool written_so = std::ranges::equal(
-      text, shape, [](char c, char s) { return s == 'd' ? c >= '0' && c <= '9' : c == s; });
-  return written_so && date_of(text).ok();
+  constexpr std::string_view date_shape = "dddd-dd-dd";
+  const bool has_date_shape = std::ranges::equal(
+      text, date_shape, [](char c, char s) { return s == 'd' ? c >= '0' && c <= '9' : c == s; });
+  return has_date_shape && date_of(text).ok();
 }
 
 // Returns whether the glob matches all samples. The samples are names of the same kind (such as
@@ -40,7 +40,8 @@ bool matches_all(std::string_view glob, const std::array<const char*, N>& sample
 
 }  // namespace
 
-void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::string_view> known) {
+void refuse_unknown_keys(const core::JsonNode& entry,
+                         std::initializer_list<std::string_view> known) {
   for (const auto& [key, value] : entry.members()) {
     if (std::ranges::find(known, key) != known.end()) continue;
     value.fail(fmt::format("unknown key; expected one of: {}", fmt::join(known, ", ")));
@@ -70,13 +71,13 @@ std::optional<int> days_between(std::string_view from, std::string_view to) {
 }
 
 void refuse_distant_expiry(const core::JsonNode& expiry, const std::string& today) {
-  constexpr int most = 366;
+  constexpr int most_days = 366;
   const auto days = days_between(today, expiry.text());
-  if (!days || *days <= most) return;  // expiry_of() reports a value that is not a date
+  if (!days || *days <= most_days) return;  // expiry_of() reports a value that is not a date
   expiry.fail(
       fmt::format("is more than {} days after {}; choose an earlier date by which somebody "
                   "will review whether the entry is still needed",
-                  most, today));
+                  most_days, today));
 }
 
 bool matches_every_device(std::string_view glob) {

@@ -13,7 +13,8 @@ namespace triptych::judge {
 
 // Throws InputError for an unknown key, because an entry whose key is ignored would excuse more
 // than intended.
-void refuse_other_keys(const core::JsonNode& entry, std::initializer_list<std::string_view> known);
+void refuse_unknown_keys(const core::JsonNode& entry,
+                         std::initializer_list<std::string_view> known);
 // Returns the reason of the entry. Throws InputError if it is blank.
 [[nodiscard]] std::string reason_of(const core::JsonNode& entry);
 // Returns the expiry date of the entry. Throws InputError if it is not a valid calendar date.

@@ -15,11 +15,13 @@
 namespace triptych::judge {
 namespace {
 
-constexpr std::array<std::pair<Known, std::string_view>, 3> known_names{
-    {{Known::fail, "fail"}, {Known::flake, "flake"}, {Known::skip, "skip"}}};
+constexpr std::array<std::pair<ExpectedOutcome, std::string_view>, 3> outcome_names{
+    {{ExpectedOutcome::fail, "fail"},
+     {ExpectedOutcome::flake, "flake"},
+     {ExpectedOutcome::skip, "skip"}}};
 
 Waiver read_waiver(const core::JsonNode& entry) {
-  refuse_other_keys(entry, {"device", "test", "configuration", "reason", "expiry", "outcome"});
+  refuse_unknown_keys(entry, {"device", "test", "configuration", "reason", "expiry", "outcome"});
   Waiver waiver{.device = entry.at("device").text(),
                 .test = entry.at("test").text(),
                 .reason = reason_of(entry),
@@ -29,7 +31,7 @@ Waiver read_waiver(const core::JsonNode& entry) {
 }
 
 // Rejects an entry that excuses everything, because it would also hide all later failures.
-void refuse_without_limits(const core::JsonNode& entry, const Waiver& waiver) {
+void refuse_unlimited(const core::JsonNode& entry, const Waiver& waiver) {
   if (matches_every_device(waiver.device) && matches_every_test(waiver.test) &&
       matches_every_configuration(waiver.configuration)) {
     entry.at("test").fail(
@@ -38,18 +40,20 @@ void refuse_without_limits(const core::JsonNode& entry, const Waiver& waiver) {
   }
 }
 
-Known read_known(const core::JsonNode& node) {
+ExpectedOutcome read_outcome(const core::JsonNode& node) {
   const std::string text = node.text();
-  const auto found = std::ranges::find(known_names, std::string_view(text),
-                                       &std::pair<Known, std::string_view>::second);
-  if (found == known_names.end()) node.fail("expected fail, flake or skip");
+  const auto found = std::ranges::find(outcome_names, std::string_view(text),
+                                       &std::pair<ExpectedOutcome, std::string_view>::second);
+  if (found == outcome_names.end()) node.fail("expected fail, flake or skip");
   return found->first;
 }
 
 }  // namespace
 
-std::string_view name_of(Known known) {
-  return std::ranges::find(known_names, known, &std::pair<Known, std::string_view>::first)->second;
+std::string_view name_of(ExpectedOutcome outcome) {
+  return std::ranges::find(outcome_names, outcome,
+                           &std::pair<ExpectedOutcome, std::string_view>::first)
+      ->second;
 }
 
 std::vector<Waiver> read_waivers(const std::filesystem::path& file, const std::string& today) {
@@ -61,27 +65,27 @@ std::vector<Waiver> read_waivers(const std::filesystem::path& file, const std::s
     // failures.
     refuse_distant_expiry(entry.at("expiry"), today);
     result.push_back(read_waiver(entry));
-    refuse_without_limits(entry, result.back());
+    refuse_unlimited(entry, result.back());
   }
   return result;
 }
 
-std::vector<Waiver> read_expected(const std::filesystem::path& file) {
+std::vector<Waiver> read_expected_outcomes(const std::filesystem::path& file) {
   const auto json = core::JsonFile::read(file);
   if (!json) throw core::InputError(file.string() + ": the file does not exist");
   std::vector<Waiver> result;
   for (const core::JsonNode& entry : json->root().elements()) {
     result.push_back(read_waiver(entry));
     static_cast<void>(entry.at("configuration"));
-    refuse_without_limits(entry, result.back());
-    result.back().known = read_known(entry.at("outcome"));
+    refuse_unlimited(entry, result.back());
+    result.back().outcome = read_outcome(entry.at("outcome"));
   }
   return result;
 }
 
-std::string expected_text(std::vector<Waiver> waivers) {
+std::string expected_outcomes_text(std::vector<Waiver> waivers) {
   const auto key = [](const Waiver& each) {
-    return std::tie(each.device, each.test, each.configuration, each.known);
+    return std::tie(each.device, each.test, each.configuration, each.outcome);
   };
   std::ranges::sort(waivers, {}, key);
   core::Json list = core::Json::array();
@@ -89,7 +93,7 @@ std::string expected_text(std::vector<Waiver> waivers) {
     core::Json entry{{"device", each.device},
                      {"test", each.test},
                      {"configuration", each.configuration},
-                     {"outcome", name_of(each.known)},
+                     {"outcome", name_of(each.outcome)},
                      {"reason", core::mended_utf8(each.reason)}};
     if (!each.expiry.empty()) entry["expiry"] = each.expiry;
     list.push_back(std::move(entry));

@@ -12,12 +12,12 @@ namespace triptych::judge {
 
 // The result that an entry in a file of expectations expects. Entries of waivers.json do not state
 // an expected result, because they always excuse failures and flakes.
-enum class Known : std::uint8_t {
+enum class ExpectedOutcome : std::uint8_t {
   fail,   // a regression
   flake,  // a regression in some runs and a pass in others
   skip    // the device cannot draw the configuration
 };
-[[nodiscard]] std::string_view name_of(Known known);
+[[nodiscard]] std::string_view name_of(ExpectedOutcome outcome);
 
 struct Waiver {
   std::string device;  // glob for device ids
@@ -25,7 +25,7 @@ struct Waiver {
   std::string reason;
   std::string expiry;               // ISO date from which the entry is ignored; empty: never
   std::string configuration = "*";  // glob for configuration keys
-  Known known = Known::fail;
+  ExpectedOutcome outcome = ExpectedOutcome::fail;
 };
 
 // Reads [{device, test, reason, expiry}, …]; an entry may also have a `configuration`. Returns an
@@ -38,9 +38,9 @@ struct Waiver {
 // Reads a file of expectations: [{device, test, configuration, outcome, reason}, …]; an entry may
 // also have an `expiry`. Throws InputError if the file does not exist, and InputError with file and
 // line for a malformed entry.
-[[nodiscard]] std::vector<Waiver> read_expected(const std::filesystem::path& file);
+[[nodiscard]] std::vector<Waiver> read_expected_outcomes(const std::filesystem::path& file);
 
 // Returns the content of a file of expectations, sorted, with one entry per line.
-[[nodiscard]] std::string expected_text(std::vector<Waiver> waivers);
+[[nodiscard]] std::string expected_outcomes_text(std::vector<Waiver> waivers);
 
 }  // namespace triptych::judge

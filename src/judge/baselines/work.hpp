@@ -22,13 +22,13 @@ struct WorkChange {
   std::string unit;      // the counter that measures the work, one of work_units
 };
 
-// Compares the counts `now` with earlier counts; `then` returns the earlier count of a counter.
+// Compares the counts `now` with earlier counts; `before` returns the earlier count of a counter.
 // Returns nullopt if none of the counters in work_units has a positive count in both runs.
 [[nodiscard]] std::optional<WorkChange> work_change(
     const record::Counts& now,
-    const std::function<std::optional<double>(const std::string&)>& then);
+    const std::function<std::optional<double>(const std::string&)>& before);
 [[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
-                                                    const record::Counts& then);
+                                                    const record::Counts& before);
 // Compares the counts `now` with the counts that are stored for the configuration on the device.
 [[nodiscard]] std::optional<WorkChange> work_change(const record::Counts& now,
                                                     const Baselines& baselines,

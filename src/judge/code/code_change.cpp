@@ -126,7 +126,7 @@ void compare_executable(const std::string& name, const record::Executable& befor
           [](const CodeChange& each) { return each.statistic.rank == quantity::code_size.rank; });
   if (same_instructions) comparison.changes.resize(first);
   if (!before.assembly.empty() && !now.assembly.empty() && before.assembly != now.assembly) {
-    comparison.assembled.push_back(name);
+    comparison.reassembled.push_back(name);
   }
 }
 
@@ -145,12 +145,12 @@ CodeDirection CodeComparison::direction() const {
   const bool better = any([](const CodeChange& each) { return each.better(); });
   if (!worse && !better) return CodeDirection::other;
   if (worse != better) return worse ? CodeDirection::worse : CodeDirection::better;
-  const auto throughput_is = [&](bool worse_one) {
+  const auto has_throughput = [&](bool worse_one) {
     return any([&](const CodeChange& each) {
       return each.statistic.rank == quantity::throughput.rank && each.worse() == worse_one;
     });
   };
-  const bool faster = throughput_is(false) && !throughput_is(true);
+  const bool faster = has_throughput(false) && !has_throughput(true);
   return faster ? CodeDirection::better : CodeDirection::worse;
 }
 

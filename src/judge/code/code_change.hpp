@@ -14,11 +14,12 @@ namespace triptych::judge {
 // The meaning of a statistic that a driver reports. Drivers use different names for the same
 // quantity. Changes of a statistic with an unknown name are shown but do not affect the verdict.
 struct CodeStatistic {
-  std::string_view name;       // such as "occupancy"; empty for an unknown statistic
-  std::string_view mesa = {};  // the name in Mesa's shader-db totals, such as "MaxWaves", or empty
-  bool decides = false;        // whether a change for the worse is a regression
-  bool more_is_worse = true;   // used only for totals and if `decides` is true
-  int rank = 100;              // statistics are printed in this order, the most important first
+  std::string_view name;  // such as "occupancy"; empty for an unknown statistic
+  // The name in Mesa's shader-db totals, such as "MaxWaves", or empty.
+  std::string_view mesa_name = {};
+  bool decides = false;       // whether a change for the worse is a regression
+  bool more_is_worse = true;  // used only for totals and if `decides` is true
+  int rank = 100;             // statistics are printed in this order, the most important first
 
   [[nodiscard]] bool is_occupancy() const { return rank == 0; }
   // Returns whether a relative change of the statistic is meaningful. This is the case if the
@@ -44,10 +45,10 @@ struct CodeChange {
 enum class CodeDirection { same, other, worse, better };
 
 struct CodeComparison {
-  std::vector<CodeChange> changes;     // the most important statistics first
-  std::vector<std::string> gone;       // executables that no longer exist
-  std::vector<std::string> added;      // executables that did not exist before
-  std::vector<std::string> assembled;  // executables whose disassembly changed
+  std::vector<CodeChange> changes;       // the most important statistics first
+  std::vector<std::string> gone;         // executables that no longer exist
+  std::vector<std::string> added;        // executables that did not exist before
+  std::vector<std::string> reassembled;  // executables whose disassembly changed
   // Returns whether the code got better or worse, according to all changed statistics that affect
   // the verdict. If some of them improved and others got worse, the inverse throughput decides. If
   // the inverse throughput did not change or is not reported, returns `worse`, so that a person has

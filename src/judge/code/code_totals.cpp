@@ -15,13 +15,13 @@ void CodeTotals::add(const std::string& configuration, const record::Code& befor
     const auto old = before.find(name);
     if (old == before.end()) continue;
     for (const auto& [statistic, value] : executable.statistics) {
-      const auto there = old->second.statistics.find(statistic);
-      const CodeStatistic known = code_statistic(statistic);
-      if (there == old->second.statistics.end() || known.mesa.empty()) continue;
-      Sum& sum = sums[std::string(known.mesa)];
-      sum.before += there->second;
+      const auto old_value = old->second.statistics.find(statistic);
+      const CodeStatistic meaning = code_statistic(statistic);
+      if (old_value == old->second.statistics.end() || meaning.mesa_name.empty()) continue;
+      Sum& sum = sums[std::string(meaning.mesa_name)];
+      sum.before += old_value->second;
       sum.now += value;
-      sum.more_is_worse = known.more_is_worse;
+      sum.more_is_worse = meaning.more_is_worse;
     }
   }
   ++configurations_;

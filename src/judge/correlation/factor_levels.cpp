@@ -7,7 +7,8 @@
 
 namespace triptych::judge {
 
-std::vector<FactorLevel> factor_levels(std::span<const Factors> configurations, std::size_t least) {
+std::vector<FactorLevel> factor_levels(std::span<const Factors> configurations,
+                                       std::size_t least_members) {
   std::map<std::string, std::vector<std::size_t>> inside;
   for (std::size_t i = 0; i < configurations.size(); ++i) {
     for (const auto& [factor, level] : configurations[i]) {
@@ -16,15 +17,17 @@ std::vector<FactorLevel> factor_levels(std::span<const Factors> configurations, 
   }
   std::map<std::vector<std::size_t>, std::vector<std::string>> names;
   for (const auto& [name, members] : inside) {
-    if (members.size() >= least && configurations.size() - members.size() >= least) {
+    if (members.size() >= least_members &&
+        configurations.size() - members.size() >= least_members) {
       names[members].push_back(name);
     }
   }
   std::vector<FactorLevel> levels;
-  for (const auto& [members, same] : names) {
-    FactorLevel level{same.front(), members, {}};
-    if (same.size() > 1) {
-      level.name += fmt::format(" (= {})", fmt::join(same.begin() + 1, same.end(), ", "));
+  for (const auto& [members, equal_levels] : names) {
+    FactorLevel level{equal_levels.front(), members, {}};
+    if (equal_levels.size() > 1) {
+      level.name +=
+          fmt::format(" (= {})", fmt::join(equal_levels.begin() + 1, equal_levels.end(), ", "));
     }
     for (std::size_t i = 0; i < configurations.size(); ++i) {
       if (!std::ranges::binary_search(members, i)) level.outside.push_back(i);

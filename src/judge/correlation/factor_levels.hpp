@@ -17,10 +17,10 @@ struct FactorLevel {
   std::vector<std::size_t> outside;  // indices of all other configurations, ascending
 };
 
-// Returns the levels that are set in at least `least` configurations and not set in at least
-// `least` others, sorted by name. Levels that occur in exactly the same configurations cannot be
-// distinguished, so they are combined: "ray=vertex (= corners=4)".
+// Returns the levels that are set in at least `least_members` configurations and not set in at
+// least `least_members` others, sorted by name. Levels that occur in exactly the same
+// configurations cannot be distinguished, so they are combined: "ray=vertex (= corners=4)".
 [[nodiscard]] std::vector<FactorLevel> factor_levels(std::span<const Factors> configurations,
-                                                     std::size_t least);
+                                                     std::size_t least_members);
 
 }  // namespace triptych::judge

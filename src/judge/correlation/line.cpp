@@ -34,7 +34,7 @@ bool can_have_line(const Values& x) {
 
 // Returns exp(x − first) for each logarithm x, where first is the first logarithm. The subtraction
 // prevents an overflow. It does not change the correlation r, because r does not depend on units.
-Values plain(Values logarithms) {
+Values exponentials(Values logarithms) {
   const double first = logarithms.front();
   for (double& value : logarithms) value = std::exp(value - first);
   return logarithms;
@@ -108,20 +108,21 @@ double weighted_product(const Values& weights, const Values& a, const Values& b)
 // logarithms of a configuration's costs on the two devices, and d is 1 if the configuration has the
 // level, otherwise 0. First removes the regression of d on x (Frisch and Waugh 1933), because
 // otherwise b would absorb a part of the effect if all configurations with the level are expensive.
-OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
-                        const FactorLevel& level) {
+LineOutlier level_effect(const Values& x, const estimation::RobustLine& fit,
+                         const FactorLevel& level) {
   Values weights(x.size());
   Values centred(x.size());
   weigh_side(fit.residuals, level.inside, fit.scale, weights, centred);
   weigh_side(fit.residuals, level.outside, fit.scale, weights, centred);
   Values indicator(x.size(), 0.0);
   for (const std::size_t i : level.inside) indicator[i] = 1;
-  const double along = weighted_product(weights, x, indicator) / weighted_product(weights, x, x);
-  Values own(x.size());
-  for (std::size_t i = 0; i < x.size(); ++i) own[i] = indicator[i] - along * x[i];
-  const double squares = weighted_product(weights, own, own);
-  OffTheLine result{level.name, level.inside, 0, 0, 1};
-  result.effect = weighted_product(weights, own, fit.residuals) / squares;
+  const double projection =
+      weighted_product(weights, x, indicator) / weighted_product(weights, x, x);
+  Values orthogonal(x.size());
+  for (std::size_t i = 0; i < x.size(); ++i) orthogonal[i] = indicator[i] - projection * x[i];
+  const double squares = weighted_product(weights, orthogonal, orthogonal);
+  LineOutlier result{level.name, level.inside, 0, 0, 1};
+  result.effect = weighted_product(weights, orthogonal, fit.residuals) / squares;
   const double kappa = estimation::robust_variance(centred, fit.scale, 3);
   result.error = fit.scale * std::sqrt(kappa / squares);
   return result;
@@ -129,13 +130,13 @@ OffTheLine level_effect(const Values& x, const estimation::RobustLine& fit,
 
 // Returns the level with the most significant effect, together with the q-value of that effect. If
 // there is no level, the effect is 0.
-OffTheLine clearest_level(const Values& x, const estimation::RobustLine& fit,
-                          std::span<const FactorLevel> levels) {
-  OffTheLine best;
+LineOutlier most_significant_level(const Values& x, const estimation::RobustLine& fit,
+                                   std::span<const FactorLevel> levels) {
+  LineOutlier best;
   Values p;
   double least = 2;
   for (const FactorLevel& level : levels) {
-    const OffTheLine each = level_effect(x, fit, level);
+    const LineOutlier each = level_effect(x, fit, level);
     // The effect is NaN if the level's indicator is a linear function of x, or if all points of the
     // level have weight 0.
     if (!std::isfinite(each.effect) || !(each.error > 0)) continue;
@@ -148,8 +149,9 @@ OffTheLine clearest_level(const Values& x, const estimation::RobustLine& fit,
   return best;
 }
 
-std::vector<OffTheLine> configurations_off(const Values& x, const estimation::RobustLine& fit) {
-  std::vector<OffTheLine> all;
+std::vector<LineOutlier> outlying_configurations(const Values& x,
+                                                 const estimation::RobustLine& fit) {
+  std::vector<LineOutlier> all;
   Values p;
   for (std::size_t i = 0; i < x.size(); ++i) {
     const double error = fit.scale * std::sqrt(1 + fit.leverages[i]);
@@ -159,10 +161,11 @@ std::vector<OffTheLine> configurations_off(const Values& x, const estimation::Ro
   }
   const Values q = estimation::benjamini_hochberg_adjusted(p);
   for (std::size_t i = 0; i < x.size(); ++i) all[i].q = q[i];
-  std::erase_if(all, [](const OffTheLine& each) {
-    return each.q > Model::share_of_false || each.effect < std::log(Model::configuration_effect);
+  std::erase_if(all, [](const LineOutlier& each) {
+    return each.q > Model::false_discovery_rate ||
+           each.effect < std::log(Model::configuration_effect);
   });
-  std::ranges::stable_sort(all, std::greater{}, &OffTheLine::effect);
+  std::ranges::stable_sort(all, std::greater{}, &LineOutlier::effect);
   return all;
 }
 
@@ -186,28 +189,29 @@ void fit_line(CorrelationPair& pair) {
     line.slope = fit.line.slope;
     line.scale = fit.scale;
     line.rho = estimation::pearson_r(x, y);
-    line.pearson = estimation::pearson_r(plain(x), plain(y));
+    line.pearson = estimation::pearson_r(exponentials(x), exponentials(y));
     for (CorrelationPoint& point : pair.points) point.residual = point.y - line.at(point.x);
   }
   line.refusal = refusal_of(line);
 }
 
-std::vector<OffTheLine> off_the_line(std::span<const CorrelationPoint> points,
-                                     std::span<const Factors> factors) {
+std::vector<LineOutlier> line_outliers(std::span<const CorrelationPoint> points,
+                                       std::span<const Factors> factors) {
   auto [x, y] = coordinates_of(points);
   const std::vector<FactorLevel> levels = factor_levels(factors, Model::least_level);
-  std::vector<OffTheLine> result;
+  std::vector<LineOutlier> result;
   estimation::RobustLine fit = fit_of(x, y);
   while (result.size() < Model::most_levels) {
-    OffTheLine level = clearest_level(x, fit, levels);
-    if (level.q > Model::share_of_false || std::abs(level.effect) < std::log(Model::level_effect)) {
+    LineOutlier level = most_significant_level(x, fit, levels);
+    if (level.q > Model::false_discovery_rate ||
+        std::abs(level.effect) < std::log(Model::level_effect)) {
       break;
     }
     for (const std::size_t i : level.members) y[i] -= level.effect;
     fit = fit_of(x, y);
     result.push_back(std::move(level));
   }
-  std::ranges::move(configurations_off(x, fit), std::back_inserter(result));
+  std::ranges::move(outlying_configurations(x, fit), std::back_inserter(result));
   return result;
 }
 

@@ -26,7 +26,7 @@ struct LineModel {
   // Conditions under which a factor level or a configuration is reported.
   // The expected share of false findings (Benjamini and Hochberg). It applies to levels and to
   // configurations separately, so the share is at most 1 % for both together.
-  static constexpr double share_of_false = 0.005;
+  static constexpr double false_discovery_rate = 0.005;
   // The smallest effect of a configuration that is reported: 5 %. This is half of the effect that
   // must be found (10 %), because measured effects scatter around the true effect.
   static constexpr double configuration_effect = 1.05;
@@ -43,7 +43,7 @@ struct LineModel {
 // lines (estimation/regression.hpp).
 void fit_line(CorrelationPair& pair);
 
-struct OffTheLine {
+struct LineOutlier {
   std::string level;                 // the factor level; empty for a single configuration
   std::vector<std::size_t> members;  // indices of points
   // The residual of the configuration, or the offset of the level relative to all other
@@ -58,7 +58,7 @@ struct OffTheLine {
 // that cost more than the line predicts, the largest residual first. Each level that is found gets
 // its own offset in the model, and the line is fitted again before the search continues. `factors`
 // contains the factors of each point.
-[[nodiscard]] std::vector<OffTheLine> off_the_line(std::span<const CorrelationPoint> points,
-                                                   std::span<const Factors> factors);
+[[nodiscard]] std::vector<LineOutlier> line_outliers(std::span<const CorrelationPoint> points,
+                                                     std::span<const Factors> factors);
 
 }  // namespace triptych::judge

@@ -28,8 +28,8 @@ bool same_direction(double a, double b) {
   return a != 0 && std::signbit(a) == std::signbit(b);
 }
 
-Movement movement(Movement::Of of, std::span<const double> moved, Indices members) {
-  Movement result{of, {}, std::move(members), 0, 0, 0};
+Movement movement(Movement::Scope scope, std::span<const double> moved, Indices members) {
+  Movement result{scope, {}, std::move(members), 0, 0, 0};
   std::vector<double> values;
   for (const std::size_t i : result.members) values.push_back(moved[i]);
   std::ranges::sort(values, {}, [](double value) { return std::abs(value); });
@@ -43,54 +43,55 @@ class Explanation {
  public:
   Explanation(std::span<const double> moved, std::span<const Factors> factors)
       : moved_(moved),
-        left_(moved.begin(), moved.end()),
+        unexplained_(moved.begin(), moved.end()),
         levels_(factor_levels(factors, least_level)) {}
 
   [[nodiscard]] std::vector<Movement> run() && {
-    find_everything();
-    while (find_level()) {
+    find_common_change();
+    while (find_level_change()) {
     }
-    find_configurations();
+    find_configuration_changes();
     return std::move(result_);
   }
 
  private:
-  void cover(const Indices& members, double effect) {
+  void mark_explained(const Indices& members, double effect) {
     for (const std::size_t i : members) {
-      const bool beyond = std::abs(left_[i] - effect) > std::abs(effect);
-      if (same_direction(left_[i], effect) && !beyond) left_[i] = 0;
+      const bool beyond = std::abs(unexplained_[i] - effect) > std::abs(effect);
+      if (same_direction(unexplained_[i], effect) && !beyond) unexplained_[i] = 0;
     }
   }
 
-  void find_everything() {
+  void find_common_change() {
     if (moved_.size() < 2) return;
     if (!std::ranges::all_of(moved_, [&](double m) { return same_direction(m, moved_[0]); })) {
       return;
     }
     Indices all(moved_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    result_.push_back(movement(Movement::Of::everything, moved_, all));
-    cover(all, result_.back().log_ratio);
+    result_.push_back(movement(Movement::Scope::everything, moved_, all));
+    mark_explained(all, result_.back().log_ratio);
   }
 
   // Returns the mean change of the level minus the mean change of all other configurations. Returns
   // nullopt if too few configurations of the level changed in the direction of this difference.
   [[nodiscard]] std::optional<double> effect_of(const FactorLevel& level) const {
-    const double effect = mean_of(left_, level.inside) - mean_of(left_, level.outside);
-    const auto along = std::ranges::count_if(
-        level.inside, [&](std::size_t i) { return same_direction(left_[i], effect); });
+    const double effect =
+        mean_of(unexplained_, level.inside) - mean_of(unexplained_, level.outside);
+    const auto agreeing = std::ranges::count_if(
+        level.inside, [&](std::size_t i) { return same_direction(unexplained_[i], effect); });
     const double least = least_share_moved * static_cast<double>(level.inside.size());
-    if (static_cast<double>(along) < least) return std::nullopt;
+    if (static_cast<double>(agreeing) < least) return std::nullopt;
     return effect;
   }
 
   // Adds the level that explains most of the sum of squares of the remaining changes. Returns
   // false, which ends the search, if there is no such level, or if the level leaves as many changes
   // unexplained as before.
-  bool find_level() {
+  bool find_level_change() {
     const FactorLevel* best = nullptr;
     double most = 0;
-    double of_best = 0;
+    double best_effect = 0;
     for (const FactorLevel& level : levels_) {
       const auto effect = effect_of(level);
       if (!effect) continue;
@@ -100,31 +101,31 @@ class Explanation {
       if (explained <= most) continue;
       best = &level;
       most = explained;
-      of_best = *effect;
+      best_effect = *effect;
     }
     if (best == nullptr) return false;
-    result_.push_back(movement(Movement::Of::level, moved_, best->inside));
+    result_.push_back(movement(Movement::Scope::level, moved_, best->inside));
     result_.back().level = best->name;
-    result_.back().log_ratio = of_best;
-    const auto before = std::ranges::count(left_, 0.0);
-    cover(best->inside, of_best);
-    return std::ranges::count(left_, 0.0) > before;
+    result_.back().log_ratio = best_effect;
+    const auto before = std::ranges::count(unexplained_, 0.0);
+    mark_explained(best->inside, best_effect);
+    return std::ranges::count(unexplained_, 0.0) > before;
   }
 
-  void find_configurations() {
+  void find_configuration_changes() {
     Indices order;
-    for (std::size_t i = 0; i < left_.size(); ++i) {
-      if (left_[i] != 0) order.push_back(i);
+    for (std::size_t i = 0; i < unexplained_.size(); ++i) {
+      if (unexplained_[i] != 0) order.push_back(i);
     }
     std::ranges::stable_sort(order, std::greater{},
                              [&](std::size_t i) { return std::abs(moved_[i]); });
     for (const std::size_t i : order) {
-      result_.push_back(movement(Movement::Of::configuration, moved_, {i}));
+      result_.push_back(movement(Movement::Scope::configuration, moved_, {i}));
     }
   }
 
   std::span<const double> moved_;
-  std::vector<double> left_;  // the changes that are not explained yet; all others are 0
+  std::vector<double> unexplained_;  // the changes that are not explained yet; all others are 0
   std::vector<FactorLevel> levels_;
   std::vector<Movement> result_;
 };
@@ -150,7 +151,7 @@ CostChange change_of(const FrameCost& stored, const FrameCost& now) {
           (now.driver - stored.driver) / stored.sum()};
 }
 
-double moved_by(const CostChange& change, const Repeatability& bound) {
+double significant_change(const CostChange& change, const Repeatability& bound) {
   double beyond = 0;
   if (std::abs(change.device_code) > bound.device_code) beyond += change.device_code;
   if (std::abs(change.driver) > bound.driver) beyond += change.driver;
@@ -159,8 +160,8 @@ double moved_by(const CostChange& change, const Repeatability& bound) {
 
 bool residual_moved(const CostChange& a, const Repeatability& bound_a, const CostChange& b,
                     const Repeatability& bound_b) {
-  const CostChange apart{b.device_code - a.device_code, b.driver - a.driver};
-  return moved_by(apart, bound_a + bound_b) != 0;
+  const CostChange difference{b.device_code - a.device_code, b.driver - a.driver};
+  return significant_change(difference, bound_a + bound_b) != 0;
 }
 
 std::vector<Movement> explain(std::span<const double> moved, std::span<const Factors> factors) {

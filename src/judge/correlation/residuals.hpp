@@ -43,7 +43,7 @@ struct CostChange {
 // Returns ln(new cost/old cost) of the frame, counting only the parts (device code, driver) whose
 // change exceeds their value in `bound`. Returns 0 if there is no such part. Each part is judged
 // separately, so that a change in device code is detected even if the driver's count varies a lot.
-[[nodiscard]] double moved_by(const CostChange& change, const Repeatability& bound);
+[[nodiscard]] double significant_change(const CostChange& change, const Repeatability& bound);
 // Returns whether the ratio of the costs of two devices, A and B, differs from the stored ratio by
 // more than the repeatability of both.
 [[nodiscard]] bool residual_moved(const CostChange& a, const Repeatability& bound_a,
@@ -52,9 +52,9 @@ struct CostChange {
 // A change in cost on one device. It applies to all configurations, to the configurations with a
 // factor level, or to a single configuration.
 struct Movement {
-  enum class Of : std::uint8_t { everything, level, configuration };
-  Of of = Of::configuration;
-  std::string level;                 // the name of the level, if `of` is Of::level
+  enum class Scope : std::uint8_t { everything, level, configuration };
+  Scope scope = Scope::configuration;
+  std::string level;                 // the name of the level, if `scope` is Scope::level
   std::vector<std::size_t> members;  // indices of the configurations
   // The median change of the members. For a level: their mean change minus the mean change of all
   // other configurations.
@@ -64,11 +64,11 @@ struct Movement {
 };
 
 // Describes the changes of all configurations with as few movements as possible. `moved` contains
-// the result of moved_by() for each configuration. The result begins with a movement of everything
-// if all configurations changed in the same direction. Then follow the levels that explain most of
-// the changes and, finally, single configurations, the largest change first. A configuration that
-// another movement already covers is returned only if it changed by more than twice as much as that
-// movement, or in the opposite direction.
+// the result of significant_change() for each configuration. The result begins with a movement of
+// everything if all configurations changed in the same direction. Then follow the levels that
+// explain most of the changes and, finally, single configurations, the largest change first. A
+// configuration that another movement already covers is returned only if it changed by more than
+// twice as much as that movement, or in the opposite direction.
 [[nodiscard]] std::vector<Movement> explain(std::span<const double> moved,
                                             std::span<const Factors> factors);
 

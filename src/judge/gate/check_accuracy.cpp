@@ -24,32 +24,32 @@ constexpr double float_rounding = 0x1.0p-24;
 // opposite sign, so the error may exceed the accepted error by twice that part. This follows from
 // the triangle inequality for the RMS distance: two correct images differ by at most the sum of
 // their distances from the reference image.
-double allowed(const StoredError& stored) {
+double allowed_error(const StoredError& stored) {
   return stored.rmse + 2 * stored.arithmetic + float_rounding;
 }
 
 // Returns the largest allowed error on this device. If no error was accepted for this device,
 // returns the largest error that is allowed on any device.
-std::optional<double> allowed_on(const std::map<std::string, StoredError>& stored,
-                                 const std::string& device) {
+std::optional<double> allowed_error_on(const std::map<std::string, StoredError>& stored,
+                                       const std::string& device) {
   const auto own = stored.find(device);
-  if (own != stored.end()) return allowed(own->second);
+  if (own != stored.end()) return allowed_error(own->second);
   std::optional<double> largest;
   for (const auto& [other, error] : stored) {
-    largest = std::max(largest.value_or(0), allowed(error));
+    largest = std::max(largest.value_or(0), allowed_error(error));
   }
   return largest;
 }
 
 Finding judge_error(const RunView& view, const record::Record& record,
                     const accuracy::LimitErrors& error) {
-  const auto limit = allowed_on(view.baselines.errors(record.configuration), record.device);
-  const bool kept = limit && error.rmse <= *limit;
-  Finding finding =
-      limit ? finding_about(record, Check::accuracy, kept ? Verdict::pass : Verdict::regression,
-                            {.cause = Cause::error, .against = Against::baseline})
-            : finding_about(record, Check::accuracy, Verdict::cannot_judge,
-                            {.cause = Cause::not_stored}, view.accept());
+  const auto limit = allowed_error_on(view.baselines.errors(record.configuration), record.device);
+  const bool is_within_limit = limit && error.rmse <= *limit;
+  Finding finding = limit ? finding_about(record, Check::accuracy,
+                                          is_within_limit ? Verdict::pass : Verdict::regression,
+                                          {.cause = Cause::error, .against = Against::baseline})
+                          : finding_about(record, Check::accuracy, Verdict::cannot_judge,
+                                          {.cause = Cause::not_stored}, view.accept());
   set_number(finding, "rmse", error.rmse);
   set_number(finding, "max_error", error.largest);
   set_number(finding, "error_99", error.error_99);
@@ -82,15 +82,16 @@ std::optional<accuracy::Order> stored_order(const RunView& view,
 // reported as `cannot_judge`.
 Finding judge_order(const RunView& view, const record::Device& device,
                     const std::optional<accuracy::Order>& now, const accuracy::Order& stored) {
-  Observation what{.cause = now ? Cause::order : Cause::no_order, .against = Against::baseline};
-  set_number(what, "stored_order", stored.order);
-  set_number(what, "stored_half_width", stored.half_width);
-  if (!now) return finding_about(view, device, Check::accuracy, Verdict::cannot_judge, what);
-  set_number(what, "order", now->order);
-  set_number(what, "half_width", now->half_width);
-  const bool fallen = now->order < stored.order - stored.half_width - now->half_width;
-  return finding_about(view, device, Check::accuracy, fallen ? Verdict::regression : Verdict::pass,
-                       std::move(what));
+  Observation observation{.cause = now ? Cause::order : Cause::no_order,
+                          .against = Against::baseline};
+  set_number(observation, "stored_order", stored.order);
+  set_number(observation, "stored_half_width", stored.half_width);
+  if (!now) return finding_about(view, device, Check::accuracy, Verdict::cannot_judge, observation);
+  set_number(observation, "order", now->order);
+  set_number(observation, "half_width", now->half_width);
+  const bool is_lower = now->order < stored.order - stored.half_width - now->half_width;
+  return finding_about(view, device, Check::accuracy,
+                       is_lower ? Verdict::regression : Verdict::pass, std::move(observation));
 }
 
 void judge_orders(const RunView& view, const accuracy::AccuracyScene& scene,
@@ -136,11 +137,12 @@ class AccuracyCheck {
  public:
   AccuracyCheck(const RunView& view, AccuracyFindings& out) : view_(view), out_(out) {
     for (const record::Record* each : view.measured) {
-      if (!each->time_ns().empty() && each->clock() == "wall") by_the_wall_.insert(each->device);
+      if (!each->time_ns().empty() && each->clock() == "wall")
+        wall_clock_devices_.insert(each->device);
     }
   }
 
-  void look_at(const record::Record& record) {
+  void check_record(const record::Record& record) {
     try {
       measure_error(record);
     } catch (const core::Error& error) {
@@ -154,9 +156,10 @@ class AccuracyCheck {
   }
 
  private:
-  void add(const record::Record& record, Verdict verdict, Observation what, Advised advice = {}) {
+  void add(const record::Record& record, Verdict verdict, Observation observation,
+           AdviceWithCommand advice = {}) {
     out_.findings.push_back(
-        finding_about(record, Check::accuracy, verdict, std::move(what), std::move(advice)));
+        finding_about(record, Check::accuracy, verdict, std::move(observation), std::move(advice)));
   }
 
   void measure_error(const record::Record& record) {
@@ -178,7 +181,7 @@ class AccuracyCheck {
       add(record, Verdict::regression, {.cause = Cause::not_comparable});
       return;
     }
-    const std::string_view clock = by_the_wall_.contains(record.device) ? "wall" : "device";
+    const std::string_view clock = wall_clock_devices_.contains(record.device) ? "wall" : "device";
     scenes_.add(record, *limit, accuracy::accuracy_case(record, *error, clock));
     if (view_.baselines.present()) out_.findings.push_back(judge_error(view_, record, *error));
   }
@@ -188,7 +191,7 @@ class AccuracyCheck {
   Scenes scenes_;
   // Devices with at least one record that was timed only by the wall clock. For these devices, the
   // wall clock is used for all records, because times from two clocks are never compared.
-  std::set<std::string> by_the_wall_;
+  std::set<std::string> wall_clock_devices_;
 };
 
 }  // namespace
@@ -198,7 +201,7 @@ AccuracyFindings check_accuracies(const RunView& view) {
   if (view.request.limit && view.request.truth) {
     AccuracyCheck check(view, result);
     for (const record::Record* record : view.measured) {
-      if (record::has_image(*record)) check.look_at(*record);
+      if (record::has_image(*record)) check.check_record(*record);
     }
     check.finish();
   }

@@ -18,20 +18,23 @@ namespace {
 
 // Converts a CodeChange to a Change. The name of the result is the name of the statistic, preceded
 // by the name of the executable if several executables changed.
-Change change_of(const CodeChange& change, bool several) {
+Change change_of(const CodeChange& change, bool several_executables) {
   const std::string_view name =
       change.statistic.name.empty() ? std::string_view(change.driver_name) : change.statistic.name;
-  return {.name = several ? fmt::format("{} {}", change.executable, name) : std::string(name),
+  return {.name = several_executables ? fmt::format("{} {}", change.executable, name)
+                                      : std::string(name),
           .before = change.before,
           .now = change.now};
 }
 
 std::vector<Change> changes_of(const CodeComparison& comparison) {
-  const bool several = std::ranges::any_of(comparison.changes, [&](const CodeChange& each) {
-    return each.executable != comparison.changes.front().executable;
-  });
+  const bool several_executables =
+      std::ranges::any_of(comparison.changes, [&](const CodeChange& each) {
+        return each.executable != comparison.changes.front().executable;
+      });
   std::vector<Change> changes;
-  for (const CodeChange& each : comparison.changes) changes.push_back(change_of(each, several));
+  for (const CodeChange& each : comparison.changes)
+    changes.push_back(change_of(each, several_executables));
   return changes;
 }
 
@@ -46,14 +49,14 @@ std::vector<Change> changes_of(const CodeTotals& totals) {
 
 // Returns whether executables were added or removed, so that the configuration cannot be compared
 // executable by executable.
-bool in_other_parts(const CodeComparison& comparison) {
+bool has_other_executables(const CodeComparison& comparison) {
   return !comparison.gone.empty() || !comparison.added.empty();
 }
 
 Verdict verdict_of(const CodeComparison& comparison) {
   const CodeDirection direction = comparison.direction();
   if (direction == CodeDirection::worse) return Verdict::regression;
-  if (in_other_parts(comparison)) return Verdict::cannot_judge;
+  if (has_other_executables(comparison)) return Verdict::cannot_judge;
   if (direction == CodeDirection::better) return Verdict::improved;
   return direction == CodeDirection::other ? Verdict::advisory : Verdict::pass;
 }
@@ -71,23 +74,24 @@ double ratio_of(const CodeComparison& comparison) {
 }
 
 Finding judge_code(const record::Record& record, const CodeComparison& comparison,
-                   const Advised& accept) {
-  Observation what{.cause = Cause::as_stored,
-                   .against = Against::baseline,
-                   .numbers = {{"values", static_cast<double>(record.code.size())}}};
+                   const AdviceWithCommand& accept) {
+  Observation observation{.cause = Cause::as_stored,
+                          .against = Against::baseline,
+                          .numbers = {{"values", static_cast<double>(record.code.size())}}};
   if (!comparison.changes.empty()) {
-    what.cause = Cause::values_changed;
-    what.numbers = {{"ratio", ratio_of(comparison)}};
-    what.changes = changes_of(comparison);
-  } else if (in_other_parts(comparison)) {
-    what.cause = Cause::other_executables;
-    what.numbers.clear();
+    observation.cause = Cause::values_changed;
+    observation.numbers = {{"ratio", ratio_of(comparison)}};
+    observation.changes = changes_of(comparison);
+  } else if (has_other_executables(comparison)) {
+    observation.cause = Cause::other_executables;
+    observation.numbers.clear();
   }
-  what.names = comparison.gone;
-  what.names.insert(what.names.end(), comparison.added.begin(), comparison.added.end());
+  observation.names = comparison.gone;
+  observation.names.insert(observation.names.end(), comparison.added.begin(),
+                           comparison.added.end());
   const Verdict verdict = verdict_of(comparison);
-  return finding_about(record, Check::code, verdict, std::move(what),
-                       verdict == Verdict::cannot_judge ? accept : Advised{});
+  return finding_about(record, Check::code, verdict, std::move(observation),
+                       verdict == Verdict::cannot_judge ? accept : AdviceWithCommand{});
 }
 
 class DeviceCodeCheck {
@@ -95,10 +99,10 @@ class DeviceCodeCheck {
   DeviceCodeCheck(const RunView& view, const record::Device& device)
       : view_(view), device_(device), stored_(view.baselines.code(device)) {}
 
-  void look_at(const record::Record& record) { records_.push_back(&record); }
+  void add_record(const record::Record& record) { records_.push_back(&record); }
 
   void finish(std::vector<Finding>& findings) {
-    if (stored_ == nullptr) return tell_other(findings);
+    if (stored_ == nullptr) return report_other_driver(findings);
     for (const record::Record* record : records_) compare(*record, findings);
     if (!not_stored_.empty()) {
       add(findings, Verdict::cannot_judge, {.cause = Cause::not_stored, .names = not_stored_},
@@ -110,15 +114,15 @@ class DeviceCodeCheck {
   }
 
  private:
-  void add(std::vector<Finding>& findings, Verdict verdict, Observation what,
-           Advised advice = {}) const {
-    findings.push_back(
-        finding_about(view_, device_, Check::code, verdict, std::move(what), std::move(advice)));
+  void add(std::vector<Finding>& findings, Verdict verdict, Observation observation,
+           AdviceWithCommand advice = {}) const {
+    findings.push_back(finding_about(view_, device_, Check::code, verdict, std::move(observation),
+                                     std::move(advice)));
   }
 
   // Compares the code statistics with those of another driver version. Reports only totals, because
   // the compilers differ.
-  void tell_other(std::vector<Finding>& findings) const {
+  void report_other_driver(std::vector<Finding>& findings) const {
     const DriverCode* other = nullptr;
     for (const auto& [driver, code] : view_.baselines.code_of_all_drivers()) {
       if (code.device == device_.id) other = &code;
@@ -128,9 +132,9 @@ class DeviceCodeCheck {
     }
     CodeTotals totals;
     for (const record::Record* record : records_) {
-      const auto there = other->configurations.find(record->configuration);
-      if (there != other->configurations.end()) {
-        totals.add(record->configuration, there->second, record->code);
+      const auto other_code = other->configurations.find(record->configuration);
+      if (other_code != other->configurations.end()) {
+        totals.add(record->configuration, other_code->second, record->code);
       }
     }
     add(findings, Verdict::advisory,
@@ -151,7 +155,7 @@ class DeviceCodeCheck {
     }
     const CodeComparison comparison = compare_code(stored->second, record.code);
     findings.push_back(judge_code(record, comparison, view_.accept()));
-    if (comparison.changes.empty() && !comparison.assembled.empty()) {
+    if (comparison.changes.empty() && !comparison.reassembled.empty()) {
       reassembled_.push_back(record.configuration);
     }
   }
@@ -170,7 +174,8 @@ std::vector<Finding> check_code(const RunView& view) {
   std::map<std::string, DeviceCodeCheck> devices;
   for (const record::Record* record : view.measured) {
     if (record->code.empty()) continue;
-    devices.try_emplace(record->device, view, view.device(*record)).first->second.look_at(*record);
+    devices.try_emplace(record->device, view, view.device(*record))
+        .first->second.add_record(*record);
   }
   std::vector<Finding> findings;
   for (auto& [id, check] : devices) check.finish(findings);

@@ -46,8 +46,8 @@ struct Differences {
   double largest = 0;
 };
 
-void compare_own(const std::string& name, std::uint64_t stored, const record::Record& record,
-                 Differences& out) {
+void compare_with_own(const std::string& name, std::uint64_t stored, const record::Record& record,
+                      Differences& out) {
   Change change{.name = name, .before = static_cast<double>(stored)};
   const auto found = record.counters.find(name);
   if (found != record.counters.end()) {
@@ -83,14 +83,15 @@ void compare_counter(const std::string& name, const std::map<std::string, std::u
                      Differences& out) {
   const auto own = stored.find(record.device);
   const bool exact = known_driver || !record.counters.contains(name);
-  if (own != stored.end() && exact) return compare_own(name, own->second, record, out);
+  if (own != stored.end() && exact) return compare_with_own(name, own->second, record, out);
   compare_with_others(name, Range(stored), record, open, out);
 }
 
 Finding check_record(const RunView& view, const record::Record& record,
                      const StoredCounters& stored) {
-  const auto about = [&](Verdict verdict, Observation what, Advised advice = {}) {
-    return finding_about(record, Check::counters, verdict, std::move(what), std::move(advice));
+  const auto about = [&](Verdict verdict, Observation observation, AdviceWithCommand advice = {}) {
+    return finding_about(record, Check::counters, verdict, std::move(observation),
+                         std::move(advice));
   };
   if (record.counters.empty()) {
     return stored.empty()
@@ -128,11 +129,12 @@ Finding check_record(const RunView& view, const record::Record& record,
 
 }  // namespace
 
-std::vector<Change> counter_changes(const record::Record& record, const StoredCounters& of_others,
+std::vector<Change> counter_changes(const record::Record& record,
+                                    const StoredCounters& other_devices,
                                     const FindOpenCounts& open_counts) {
   Differences differences;
   OpenCounts open(record, open_counts);
-  for (const auto& [name, values] : of_others) {
+  for (const auto& [name, values] : other_devices) {
     compare_with_others(name, Range(values), record, open, differences);
   }
   return differences.wrong;

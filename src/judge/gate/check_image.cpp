@@ -26,7 +26,7 @@ struct JudgedImage {
 
 // Returns whether the configuration sets only the scene and the technique, so that every device
 // uses its default rendering path.
-bool on_default_path(const record::Record& record) {
+bool uses_default_path(const record::Record& record) {
   const auto scene = record::parse_factor_list(record.scene);
   const auto named = record::parse_factor_list(record.configuration);
   return std::ranges::all_of(named, [&](const auto& level) {
@@ -45,20 +45,20 @@ class SceneJudge {
 
   void judge(const record::Record& record) {
     if (record.image.empty()) {
-      return undecided(record, {.cause = Cause::no_image}, {Advice::run_again});
+      return add_undecided(record, {.cause = Cause::no_image}, {Advice::run_again});
     }
     TruthPair pair;
     try {
       pair = view_.request.truth(record);
     } catch (const core::Error& error) {
-      return undecided(record, {.cause = Cause::no_reference, .detail = error.what()});
+      return add_undecided(record, {.cause = Cause::no_reference, .detail = error.what()});
     }
     check_truth(pair);
     core::Image image;
     try {
       image = view_.store.decoded_image(record.image);
     } catch (const core::Error& error) {
-      return undecided(record, {.cause = Cause::unreadable_image, .detail = error.what()});
+      return add_undecided(record, {.cause = Cause::unreadable_image, .detail = error.what()});
     }
     judge_image(record, std::move(image), pair);
   }
@@ -83,25 +83,27 @@ class SceneJudge {
   }
 
  private:
-  void undecided(const record::Record& record, Observation what, Advised advice = {}) {
+  void add_undecided(const record::Record& record, Observation observation,
+                     AdviceWithCommand advice = {}) {
     out_.findings.push_back(finding_about(record, Check::image, Verdict::cannot_judge,
-                                          std::move(what), std::move(advice)));
+                                          std::move(observation), std::move(advice)));
   }
 
   void judge_image(const record::Record& record, core::Image image, const TruthPair& pair) {
-    Observation what = image_observation(accuracy::compare(image, pair.truth, pair.bound), image,
-                                         pair.truth, Against::reference);
-    if (what.cause == Cause::within_bound && stored_) {
+    Observation observation = image_observation(accuracy::compare(image, pair.truth, pair.bound),
+                                                image, pair.truth, Against::reference);
+    if (observation.cause == Cause::within_bound && stored_) {
       Observation against_stored =
           image_observation(accuracy::compare(image, *stored_, pair.bound, truth_tolerance), image,
                             *stored_, Against::stored_image);
-      if (against_stored.cause != Cause::within_bound) what = std::move(against_stored);
+      if (against_stored.cause != Cause::within_bound) observation = std::move(against_stored);
     }
-    const bool right = what.cause == Cause::within_bound;
-    if (!right) out_.wrong[{record.device, record.configuration}] = what;
-    out_.findings.push_back(finding_about(
-        record, Check::image, right ? Verdict::pass : Verdict::regression, std::move(what)));
-    if (right && on_default_path(record)) {
+    const bool correct = observation.cause == Cause::within_bound;
+    if (!correct) out_.wrong[{record.device, record.configuration}] = observation;
+    out_.findings.push_back(finding_about(record, Check::image,
+                                          correct ? Verdict::pass : Verdict::regression,
+                                          std::move(observation)));
+    if (correct && uses_default_path(record)) {
       const double rmse = accuracy::root_mean_square(image, pair.truth, pair.bound);
       images_.push_back({&record, std::move(image), rmse});
       if (!pair.bound.ids.empty()) bound_ = pair.bound;
@@ -112,30 +114,31 @@ class SceneJudge {
   void check_truth(const TruthPair& pair) {
     if (truth_checked_ || !view_.baselines.present()) return;
     truth_checked_ = true;
-    Observation what{.cause = Cause::reference_changed, .against = Against::stored_image};
+    Observation observation{.cause = Cause::reference_changed, .against = Against::stored_image};
     Verdict verdict = Verdict::regression;
-    Advised advice;
+    AdviceWithCommand advice;
     if (stored_) {
-      Observation how = image_observation(accuracy::compare(pair.truth, *stored_, truth_tolerance),
-                                          pair.truth, *stored_, Against::stored_image);
-      what.numbers = how.numbers;
+      Observation errors =
+          image_observation(accuracy::compare(pair.truth, *stored_, truth_tolerance), pair.truth,
+                            *stored_, Against::stored_image);
+      observation.numbers = errors.numbers;
       // Ids and depths are compared only in pixels where rounding cannot change them.
-      if (how.cause == Cause::within_bound) {
-        how = image_observation(accuracy::compare(pair.truth, *stored_, pair.bound), pair.truth,
-                                *stored_, Against::stored_image);
+      if (errors.cause == Cause::within_bound) {
+        errors = image_observation(accuracy::compare(pair.truth, *stored_, pair.bound), pair.truth,
+                                   *stored_, Against::stored_image);
       }
-      if (how.cause == Cause::within_bound) what.cause = Cause::reference_as_stored;
-      if (how.cause != Cause::within_bound) what.because.push_back(std::move(how));
+      if (errors.cause == Cause::within_bound) observation.cause = Cause::reference_as_stored;
+      if (errors.cause != Cause::within_bound) observation.because.push_back(std::move(errors));
     } else if (reference_) {
       const bool same = is_same_reference(reference_hash(pair.truth), *reference_);
-      if (same) what.cause = Cause::reference_as_stored;
+      if (same) observation.cause = Cause::reference_as_stored;
     } else {
-      what.cause = Cause::not_stored;
+      observation.cause = Cause::not_stored;
       verdict = Verdict::cannot_judge;
       advice = view_.accept();
     }
-    if (what.cause == Cause::reference_as_stored) verdict = Verdict::pass;
-    Finding finding = finding_about(view_, Check::image, verdict, std::move(what), advice);
+    if (observation.cause == Cause::reference_as_stored) verdict = Verdict::pass;
+    Finding finding = finding_about(view_, Check::image, verdict, std::move(observation), advice);
     finding.configuration = scene_;
     out_.findings.push_back(std::move(finding));
   }

@@ -41,27 +41,29 @@ Finding judge(const record::Record& record, const record::Counts& stored) {
 }
 
 // The configurations for which the memory allocated on a device cannot be compared.
-struct Untold {
-  bool accepted = false;          // whether memory is stored for some configuration of the device
-  std::size_t told = 0;           // number of configurations for which the device reports memory
-  std::vector<std::string> lost;  // configurations whose memory is stored, but not reported now
+struct MemoryCoverage {
+  bool accepted = false;     // whether memory is stored for some configuration of the device
+  std::size_t reported = 0;  // number of configurations for which the device reports memory
+  // configurations whose memory is stored, but not reported now
+  std::vector<std::string> no_longer_reported;
   std::vector<std::string> not_stored;  // configurations whose memory is reported, but not stored
 };
 
-void tell(const RunView& view, const record::Device& device, const Untold& untold,
-          std::vector<Finding>& findings) {
-  const auto add = [&](Verdict verdict, Observation what, Advised advice = {}) {
-    findings.push_back(
-        finding_about(view, device, Check::memory, verdict, std::move(what), std::move(advice)));
+void report_memory_coverage(const RunView& view, const record::Device& device,
+                            const MemoryCoverage& coverage, std::vector<Finding>& findings) {
+  const auto add = [&](Verdict verdict, Observation observation, AdviceWithCommand advice = {}) {
+    findings.push_back(finding_about(view, device, Check::memory, verdict, std::move(observation),
+                                     std::move(advice)));
   };
-  if (!untold.lost.empty()) {
-    add(Verdict::cannot_judge, {.cause = Cause::no_longer_reported, .names = untold.lost});
-  } else if (untold.told == 0) {
+  if (!coverage.no_longer_reported.empty()) {
+    add(Verdict::cannot_judge,
+        {.cause = Cause::no_longer_reported, .names = coverage.no_longer_reported});
+  } else if (coverage.reported == 0) {
     add(Verdict::skipped, {.cause = Cause::not_reported});
   }
-  if (untold.not_stored.empty()) return;
-  if (untold.accepted) {
-    add(Verdict::cannot_judge, {.cause = Cause::not_stored, .names = untold.not_stored},
+  if (coverage.not_stored.empty()) return;
+  if (coverage.accepted) {
+    add(Verdict::cannot_judge, {.cause = Cause::not_stored, .names = coverage.not_stored},
         view.accept());
   } else {
     add(Verdict::advisory, {.cause = Cause::no_stored_device}, view.accept());
@@ -72,18 +74,18 @@ void tell(const RunView& view, const record::Device& device, const Untold& untol
 
 std::vector<Finding> check_memory(const RunView& view) {
   std::vector<Finding> findings;
-  std::map<std::string, Untold> devices;
+  std::map<std::string, MemoryCoverage> devices;
   for (const record::Record* record : view.measured) {
-    Untold& untold = devices[record->device];
+    MemoryCoverage& coverage = devices[record->device];
     const auto stored = view.baselines.memory(record->configuration);
     const auto own = stored.find(record->device);
-    const bool told = !record->memory.empty();
-    untold.accepted = untold.accepted || own != stored.end();
-    untold.told += told ? 1 : 0;
+    const bool reported = !record->memory.empty();
+    coverage.accepted = coverage.accepted || own != stored.end();
+    coverage.reported += reported ? 1 : 0;
     if (own == stored.end()) {
-      if (told) untold.not_stored.push_back(record->configuration);
-    } else if (!told) {
-      untold.lost.push_back(record->configuration);
+      if (reported) coverage.not_stored.push_back(record->configuration);
+    } else if (!reported) {
+      coverage.no_longer_reported.push_back(record->configuration);
     } else if (record->injected.find("slowdown:") != std::string::npos) {
       findings.push_back(finding_about(*record, Check::memory, Verdict::skipped,
                                        {.cause = Cause::injected_memory}));
@@ -91,7 +93,8 @@ std::vector<Finding> check_memory(const RunView& view) {
       findings.push_back(judge(*record, own->second));
     }
   }
-  for (const auto& [id, untold] : devices) tell(view, view.devices.at(id), untold, findings);
+  for (const auto& [id, coverage] : devices)
+    report_memory_coverage(view, view.devices.at(id), coverage, findings);
   return findings;
 }
 

@@ -15,9 +15,10 @@ using Calibration = std::map<std::string, record::StatisticWorth>;
 
 Finding check_exact(const RunView& view, const record::Record& record,
                     const record::Counts& stored) {
-  const auto about = [&](Verdict verdict, Observation what, Advised advice = {}) {
-    what.against = Against::baseline;
-    return finding_about(record, Check::statistics, verdict, std::move(what), std::move(advice));
+  const auto about = [&](Verdict verdict, Observation observation, AdviceWithCommand advice = {}) {
+    observation.against = Against::baseline;
+    return finding_about(record, Check::statistics, verdict, std::move(observation),
+                         std::move(advice));
   };
   if (record.statistics.empty()) {
     return stored.empty() ? about(Verdict::skipped, {.cause = Cause::not_reported})
@@ -58,7 +59,7 @@ Finding check_exact(const RunView& view, const record::Record& record,
 
 // The result of comparing the statistics of a device with the statistics of all stored drivers.
 // This comparison is made if there are no baselines for the device's own driver version.
-struct Elsewhere {
+struct OtherDrivers {
   std::size_t configurations = 0;
   std::map<std::string, Change>
       differences;                  // portable statistics that differ from those of every driver
@@ -70,13 +71,13 @@ struct Elsewhere {
   std::size_t compared = 0;  // number of values that were compared
 };
 
-void compare_elsewhere(const RunView& view, const record::Record& record, const std::string& name,
-                       const std::map<std::string, record::Counts>& stored, Elsewhere& result) {
+void compare_statistic(const RunView& view, const record::Record& record, const std::string& name,
+                       const std::map<std::string, record::Counts>& stored, OtherDrivers& result) {
   const auto own = record.statistics.find(name);
   if (own == record.statistics.end()) return;
-  const auto here = worth_of(view.device(record).statistics_calibration, name);
-  if (!here.is_exact()) {
-    result.not_compared[{name, ""}] = name_of(here.worth);
+  const auto own_worth = worth_of(view.device(record).statistics_calibration, name);
+  if (!own_worth.is_exact()) {
+    result.not_compared[{name, ""}] = name_of(own_worth.worth);
     return;
   }
   Change change{.name = name, .now = static_cast<double>(own->second)};
@@ -84,9 +85,9 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
   for (const auto& [driver, counts] : stored) {
     const auto other = counts.find(name);
     if (other == counts.end()) continue;
-    const auto there = worth_of(view.baselines.statistics_calibration(driver), name);
-    if (!there.is_exact()) {
-      result.not_compared[{name, driver}] = name_of(there.worth);
+    const auto stored_worth = worth_of(view.baselines.statistics_calibration(driver), name);
+    if (!stored_worth.is_exact()) {
+      result.not_compared[{name, driver}] = name_of(stored_worth.worth);
       continue;
     }
     agrees = agrees || other->second == own->second;
@@ -99,38 +100,41 @@ void compare_elsewhere(const RunView& view, const record::Record& record, const 
   result.differing.insert(record.configuration);
 }
 
-void look_elsewhere(const RunView& view, const record::Record& record, Elsewhere& result) {
+void compare_with_other_drivers(const RunView& view, const record::Record& record,
+                                OtherDrivers& result) {
   ++result.configurations;
   const auto stored = view.baselines.statistics_of_all_drivers(record.configuration);
   if (stored.empty()) return;
   ++result.stored;
   for (const std::string_view name : portable_statistics) {
-    compare_elsewhere(view, record, std::string(name), stored, result);
+    compare_statistic(view, record, std::string(name), stored, result);
   }
 }
 
-Finding tell_elsewhere(const RunView& view, const record::Device& device, const Elsewhere& result) {
-  Observation what{.cause = Cause::other_driver_statistics,
-                   .against = Against::other_devices,
-                   .numbers = {{"configurations", static_cast<double>(result.configurations)},
-                               {"stored", static_cast<double>(result.stored)},
-                               {"compared", static_cast<double>(result.compared)},
-                               {"differences", static_cast<double>(result.differing.size())}},
-                   .facts = {{"driver_version", device.driver_version}}};
-  for (const auto& [name, change] : result.differences) what.changes.push_back(change);
-  for (const auto& [place, worth] : result.not_compared) {
-    const auto& [name, driver] = place;
-    what.names.push_back(driver.empty() ? fmt::format("{}: {}", name, worth)
-                                        : fmt::format("{} on {}: {}", name, driver, worth));
+Finding other_drivers_finding(const RunView& view, const record::Device& device,
+                              const OtherDrivers& result) {
+  Observation observation{
+      .cause = Cause::other_driver_statistics,
+      .against = Against::other_devices,
+      .numbers = {{"configurations", static_cast<double>(result.configurations)},
+                  {"stored", static_cast<double>(result.stored)},
+                  {"compared", static_cast<double>(result.compared)},
+                  {"differences", static_cast<double>(result.differing.size())}},
+      .facts = {{"driver_version", device.driver_version}}};
+  for (const auto& [name, change] : result.differences) observation.changes.push_back(change);
+  for (const auto& [key, worth] : result.not_compared) {
+    const auto& [name, driver] = key;
+    observation.names.push_back(driver.empty() ? fmt::format("{}: {}", name, worth)
+                                               : fmt::format("{} on {}: {}", name, driver, worth));
   }
-  return finding_about(view, device, Check::statistics, Verdict::advisory, std::move(what));
+  return finding_about(view, device, Check::statistics, Verdict::advisory, std::move(observation));
 }
 
 class StatisticsCheck {
  public:
   explicit StatisticsCheck(const RunView& view) : view_(view) {}
 
-  void look_at(const record::Record& record) {
+  void check_record(const record::Record& record) {
     const record::Device& device = view_.device(record);
     const auto stored = view_.baselines.statistics(device, record.configuration);
     if (record.untimed() && record.statistics.empty()) {
@@ -144,13 +148,13 @@ class StatisticsCheck {
       findings_.push_back(finding_about(record, Check::statistics, Verdict::skipped,
                                         {.cause = Cause::not_reported}));
     } else {
-      look_elsewhere(view_, record, elsewhere_[record.device]);
+      compare_with_other_drivers(view_, record, other_drivers_[record.device]);
     }
   }
 
   std::vector<Finding> finish() && {
-    for (const auto& [device, result] : elsewhere_) {
-      findings_.push_back(tell_elsewhere(view_, view_.devices.at(device), result));
+    for (const auto& [device, result] : other_drivers_) {
+      findings_.push_back(other_drivers_finding(view_, view_.devices.at(device), result));
     }
     for (const auto& [device, configurations] : not_stored_) {
       findings_.push_back(
@@ -163,7 +167,7 @@ class StatisticsCheck {
  private:
   const RunView& view_;
   std::vector<Finding> findings_;
-  std::map<std::string, Elsewhere> elsewhere_;  // by device
+  std::map<std::string, OtherDrivers> other_drivers_;  // by device
   // Configurations without stored statistics, by device, if the device has statistics for other
   // configurations.
   std::map<std::string, std::vector<std::string>> not_stored_;
@@ -180,7 +184,7 @@ record::StatisticWorth worth_of(const Calibration& calibration, const std::strin
 
 std::vector<Finding> check_statistics(const RunView& view) {
   StatisticsCheck check(view);
-  for (const record::Record* record : view.measured) check.look_at(*record);
+  for (const record::Record* record : view.measured) check.check_record(*record);
   return std::move(check).finish();
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 // Returns the smallest allowed score: the accepted score of the device or, for a device without
 // baselines, the lowest accepted score of all devices.
-std::optional<int> allowed_on(const std::map<std::string, std::uint64_t>& stored,
-                              const std::string& device) {
+std::optional<int> accepted_score(const std::map<std::string, std::uint64_t>& stored,
+                                  const std::string& device) {
   const auto own = stored.find(device);
   if (own != stored.end()) return static_cast<int>(own->second);
   const auto least =
@@ -29,28 +29,28 @@ Verdict verdict_of(int points, std::optional<int> accepted) {
   return points == best_stress_score ? Verdict::pass : Verdict::advisory;
 }
 
-Finding judge(const RunView& view, const StressScored& scored) {
+Finding judge(const RunView& view, const ScoredRecord& scored) {
   const record::Record& record = *scored.record;
   const int points = scored.score.points();
-  const auto accepted = allowed_on(view.baselines.scores(record.configuration), record.device);
-  Observation what{.cause = Cause::score,
-                   .against = Against::baseline,
-                   .numbers = {{"score", points}, {"best", best_stress_score}},
-                   .outcome = record.outcome,
-                   .reason = record.reason,
-                   .because = scored.score.lost};
-  if (accepted) what.numbers["accepted"] = *accepted;
-  return finding_about(record, Check::stress, verdict_of(points, accepted), std::move(what),
-                       accepted ? Advised{} : view.accept());
+  const auto accepted = accepted_score(view.baselines.scores(record.configuration), record.device);
+  Observation observation{.cause = Cause::score,
+                          .against = Against::baseline,
+                          .numbers = {{"score", points}, {"best", best_stress_score}},
+                          .outcome = record.outcome,
+                          .reason = record.reason,
+                          .because = scored.score.lost};
+  if (accepted) observation.numbers["accepted"] = *accepted;
+  return finding_about(record, Check::stress, verdict_of(points, accepted), std::move(observation),
+                       accepted ? AdviceWithCommand{} : view.accept());
 }
 
 // Returns whether a planned configuration has no record on one of the devices, because the run was
 // interrupted or is still going on. Such a configuration is reported as missing.
 bool is_unfinished(const RunView& view, const std::vector<record::Record>& records) {
   const std::size_t planned = view.store.planned(view.run).size();
-  std::map<std::string, std::size_t> there;
-  for (const record::Record& record : records) ++there[record.device];
-  return std::ranges::any_of(there,
+  std::map<std::string, std::size_t> record_counts;
+  for (const record::Record& record : records) ++record_counts[record.device];
+  return std::ranges::any_of(record_counts,
                              [planned](const auto& device) { return device.second < planned; });
 }
 
@@ -71,7 +71,7 @@ std::vector<Finding> check_stress(const RunView& view) {
                 [&](const record::Record& record) { return record.plan != view.request.plan; });
   const StressTruths truths{view.request.truth, view.request.expectations,
                             view.request.part || is_unfinished(view, all)};
-  for (const StressScored& scored : score_stress(view.store, all, truths)) {
+  for (const ScoredRecord& scored : score_stress(view.store, all, truths)) {
     if (view.devices.contains(scored.record->device)) findings.push_back(judge(view, scored));
   }
   return findings;

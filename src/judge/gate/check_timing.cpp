@@ -32,18 +32,18 @@ std::optional<std::string_view> common_clock(const record::Record& record,
 }
 
 Ratio ratio_of(const record::Record& record, std::string_view clock, const StoredTiming& stored) {
-  constexpr double normal = 1.96;
+  constexpr double normal_quantile = 1.96;
   const std::vector<double>& times = record.time_ns_by(clock);
   return {&record, std::log(estimation::median(times) / stored.median_ns),
-          normal * std::hypot(log_spread(times), stored.spread)};
+          normal_quantile * std::hypot(log_spread(times), stored.spread)};
 }
 
-class DeviceTimes {
+class DeviceTimingCheck {
  public:
-  DeviceTimes(const RunView& view, const record::Device& device, const WrongImages& wrong)
+  DeviceTimingCheck(const RunView& view, const record::Device& device, const WrongImages& wrong)
       : view_(view), device_(device), wrong_(wrong), stored_(view.baselines.timings(device)) {}
 
-  void look_at(const record::Record& record) {
+  void check_record(const record::Record& record) {
     const auto wrong = wrong_.find({record.device, record.configuration});
     if (record.untimed()) {
       add(record, Verdict::skipped, {.cause = Cause::untimed});
@@ -51,7 +51,7 @@ class DeviceTimes {
       add(record, Verdict::skipped, {.cause = Cause::same_frames, .reason = record.reason});
     } else if (wrong != wrong_.end()) {
       add_wrong(record, wrong->second);
-    } else if (!is_time(record.time_ns())) {
+    } else if (!has_valid_median(record.time_ns())) {
       add(record, Verdict::cannot_judge, {.cause = Cause::no_time}, {Advice::run_again});
     } else {
       compare(record);
@@ -60,7 +60,7 @@ class DeviceTimes {
 
   std::vector<Finding> finish() && {
     // If times affect the verdict, a time that cannot be compared must not pass.
-    const Verdict missing = decides() ? Verdict::cannot_judge : Verdict::advisory;
+    const Verdict missing = times_decide() ? Verdict::cannot_judge : Verdict::advisory;
     if (!not_stored_.empty() && stored_.empty()) {
       add(missing, {.cause = Cause::no_stored_device, .facts = {{"device_key", device_.key()}}});
     } else if (!not_stored_.empty()) {
@@ -72,27 +72,28 @@ class DeviceTimes {
   }
 
  private:
-  [[nodiscard]] bool decides() const { return view_.request.times_decide; }
-  void add(const record::Record& record, Verdict verdict, Observation what, Advised advice = {}) {
+  [[nodiscard]] bool times_decide() const { return view_.request.times_decide; }
+  void add(const record::Record& record, Verdict verdict, Observation observation,
+           AdviceWithCommand advice = {}) {
     findings_.push_back(
-        finding_about(record, Check::timing, verdict, std::move(what), std::move(advice)));
+        finding_about(record, Check::timing, verdict, std::move(observation), std::move(advice)));
   }
-  void add(Verdict verdict, Observation what, Advised advice = {}) {
-    findings_.push_back(
-        finding_about(view_, device_, Check::timing, verdict, std::move(what), std::move(advice)));
+  void add(Verdict verdict, Observation observation, AdviceWithCommand advice = {}) {
+    findings_.push_back(finding_about(view_, device_, Check::timing, verdict,
+                                      std::move(observation), std::move(advice)));
   }
-  static bool is_time(const std::vector<double>& times) {
-    const double middle = estimation::median(times);  // NaN if there are no times
-    return std::isfinite(middle) && middle > 0;
+  static bool has_valid_median(const std::vector<double>& times) {
+    const double median = estimation::median(times);  // NaN if there are no times
+    return std::isfinite(median) && median > 0;
   }
 
   // If the image is also judged, or if its error is waived, the finding about the image determines
   // the verdict, and the time is skipped.
-  void add_wrong(const record::Record& record, const Observation& why) {
-    const bool is_told =
+  void add_wrong(const record::Record& record, const Observation& image_error) {
+    const bool is_reported =
         view_.checks.contains(Check::image) || is_waived(view_, record, Check::image);
-    add(record, is_told ? Verdict::skipped : Verdict::cannot_judge,
-        {.cause = Cause::wrong_image, .because = {why}});
+    add(record, is_reported ? Verdict::skipped : Verdict::cannot_judge,
+        {.cause = Cause::wrong_image, .because = {image_error}});
   }
 
   void compare(const record::Record& record) {
@@ -105,7 +106,7 @@ class DeviceTimes {
 
   // This is the only place where the value of a time affects the verdict.
   [[nodiscard]] Verdict verdict_of(const Ratio& ratio) const {
-    if (!decides()) return Verdict::pass;
+    if (!times_decide()) return Verdict::pass;
     if (ratio.log_ratio - ratio.half_width > tolerated) return Verdict::regression;
     if (ratio.log_ratio + ratio.half_width < -tolerated) return Verdict::improved;
     return Verdict::pass;
@@ -115,16 +116,17 @@ class DeviceTimes {
     const record::Record& record = *ratio.record;
     const double now = estimation::median(record.time_ns_by(clock));
     const Verdict verdict = verdict_of(ratio);
-    Observation what{.cause = Cause::time,
-                     .against = Against::baseline,
-                     .facts = {{"clock", std::string(clock)}}};
+    Observation observation{.cause = Cause::time,
+                            .against = Against::baseline,
+                            .facts = {{"clock", std::string(clock)}}};
     if (const auto work =
             work_change(record.counters, view_.baselines, record.configuration, record.device)) {
-      what.facts["work"] = work->unit;
-      set_number(what, "work_ratio", std::exp(work->log_ratio));
+      observation.facts["work"] = work->unit;
+      set_number(observation, "work_ratio", std::exp(work->log_ratio));
     }
-    if (stored.kernel_hash != record.kernel_hash) what.facts["kernel_hash"] = record.kernel_hash;
-    add(record, verdict, std::move(what));
+    if (stored.kernel_hash != record.kernel_hash)
+      observation.facts["kernel_hash"] = record.kernel_hash;
+    add(record, verdict, std::move(observation));
     set_number(findings_.back(), "ratio", std::exp(ratio.log_ratio));
     set_number(findings_.back(), "half_width", ratio.half_width);
     set_number(findings_.back(), "median_ns", now);
@@ -136,15 +138,15 @@ class DeviceTimes {
     if (ratios_.empty()) return;
     std::vector<double> logarithms;
     for (const Ratio& ratio : ratios_) logarithms.push_back(ratio.log_ratio);
-    const double middle = estimation::median(logarithms);
+    const double median = estimation::median(logarithms);
     const Ratio& worst = *std::ranges::max_element(ratios_, {}, &Ratio::log_ratio);
     add(Verdict::advisory,
         {.cause = Cause::times,
          .against = Against::baseline,
          .numbers = {{"configurations", static_cast<double>(ratios_.size())}},
          .facts = {{"configuration", worst.record->configuration}}},
-        {decides() ? Advice::none : Advice::times});
-    set_number(findings_.back(), "ratio", std::exp(middle));
+        {times_decide() ? Advice::none : Advice::times});
+    set_number(findings_.back(), "ratio", std::exp(median));
     set_number(findings_.back(), "worst_ratio", std::exp(worst.log_ratio));
     set_number(findings_.back(), "worst_half_width", worst.half_width);
   }
@@ -162,10 +164,10 @@ class DeviceTimes {
 }  // namespace
 
 std::vector<Finding> check_timings(const RunView& view, const WrongImages& wrong) {
-  std::map<std::string, DeviceTimes> devices;
+  std::map<std::string, DeviceTimingCheck> devices;
   for (const record::Record* record : view.measured) {
     devices.try_emplace(record->device, view, view.device(*record), wrong)
-        .first->second.look_at(*record);
+        .first->second.check_record(*record);
   }
   std::vector<Finding> findings;
   for (auto& [id, times] : devices) {

@@ -23,7 +23,7 @@ std::optional<FrameCost> frame_cost(const record::Counts& counts) {
 // Returns whether the record was measured itself, not copied from another configuration that does
 // the same work. Copies are left out, because otherwise the same frames would be counted several
 // times.
-bool stands_for_itself(const record::Record& record) {
+bool has_own_measurement(const record::Record& record) {
   return record.same_as.empty();
 }
 
@@ -33,12 +33,12 @@ std::optional<FrameCost> stored_cost(const DriverCost* stored, const record::Rec
   return found == stored->configurations.end() ? std::nullopt : frame_cost(found->second.frame);
 }
 
-DeviceCost of_today(const record::Device& device, const CorrelationInput& input) {
+DeviceCost measured_cost(const record::Device& device, const CorrelationInput& input) {
   DeviceCost result{device.id, device.id, {}, true, {}};
   const auto found = input.stored.find(device.statistics_key());
   const DriverCost* stored = found == input.stored.end() ? nullptr : &found->second;
   for (const record::Record* record : input.records) {
-    if (record->device != device.id || !stands_for_itself(*record)) continue;
+    if (record->device != device.id || !has_own_measurement(*record)) continue;
     const auto now = frame_cost(record->cost);
     if (!now) continue;
     result.counted_by = record->counted_by;
@@ -47,7 +47,7 @@ DeviceCost of_today(const record::Device& device, const CorrelationInput& input)
   return result;
 }
 
-DeviceCost of_before(const DriverCost& stored) {
+DeviceCost stored_cost_of_driver(const DriverCost& stored) {
   DeviceCost result{stored.device,
                     fmt::format("{} ({})", stored.device, stored.driver_version),
                     stored.counted_by,
@@ -74,8 +74,8 @@ CorrelationPair pair_by_time(const std::string& a, const ByConfiguration& of_a,
   for (const auto& [configuration, record] : of_a) {
     const auto other = of_b.find(configuration);
     if (other == of_b.end()) continue;
-    const bool one_clock = record->clock() == other->second->clock();
-    const std::string_view clock = one_clock ? record->clock() : "wall";
+    const bool same_clock = record->clock() == other->second->clock();
+    const std::string_view clock = same_clock ? record->clock() : "wall";
     const auto x = log_median(*record, clock);
     const auto y = log_median(*other->second, clock);
     if (x && y) pair.points.push_back({configuration, *x, *y});
@@ -93,15 +93,15 @@ bool DeviceCost::accepted() const {
 
 std::vector<DeviceCost> cost_by_device(const CorrelationInput& input) {
   std::vector<DeviceCost> result;
-  std::set<std::string> here;
+  std::set<std::string> measured_drivers;
   for (const auto& [id, device] : input.devices) {
-    DeviceCost today = of_today(device, input);
-    if (today.configurations.empty()) continue;
-    here.insert(device.statistics_key());
-    result.push_back(std::move(today));
+    DeviceCost cost = measured_cost(device, input);
+    if (cost.configurations.empty()) continue;
+    measured_drivers.insert(device.statistics_key());
+    result.push_back(std::move(cost));
   }
   for (const auto& [key, stored] : input.stored) {
-    if (!here.contains(key)) result.push_back(of_before(stored));
+    if (!measured_drivers.contains(key)) result.push_back(stored_cost_of_driver(stored));
   }
   return result;
 }
@@ -128,7 +128,7 @@ CorrelationPair pair_of(const DeviceCost& a, const DeviceCost& b) {
 std::vector<CorrelationPair> pairs_by_time(const CorrelationInput& input) {
   std::map<std::string, ByConfiguration> devices;
   for (const record::Record* record : input.records) {
-    if (!stands_for_itself(*record) || record->time_ns().empty()) continue;
+    if (!has_own_measurement(*record) || record->time_ns().empty()) continue;
     devices[record->device][record->configuration] = record;
   }
   std::vector<CorrelationPair> pairs;

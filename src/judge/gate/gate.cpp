@@ -19,7 +19,7 @@
 namespace triptych::judge {
 namespace {
 
-bool asked_for(const GateRequest& request, const std::string& device) {
+bool is_requested_device(const GateRequest& request, const std::string& device) {
   return request.devices.empty() || core::any_glob_matches(request.devices, device);
 }
 
@@ -50,18 +50,19 @@ record::Run run_of(const record::Store& store, const std::string& id) {
 RunView view_of(const record::Store& store, const std::string& run, const Baselines& baselines,
                 const GateRequest& request) {
   RunView view{store, baselines, request, run_of(store, run), request.checks, {}, {}, {}, {}};
-  if (view.checks.empty()) view.checks = checked_in(view.run);
+  if (view.checks.empty()) view.checks = checks_of_run(view.run);
   for (auto& entry : store.devices(run)) {
-    if (asked_for(request, entry.device.id)) view.devices.emplace(entry.device.id, entry.device);
+    if (is_requested_device(request, entry.device.id))
+      view.devices.emplace(entry.device.id, entry.device);
   }
   // A device that should have been measured is judged even if the run has no data about it.
   for (const std::string& id : record::devices_of(view.run.begun)) {
     record::Device unknown;
     unknown.id = id;
-    if (asked_for(request, id)) view.devices.try_emplace(id, unknown);
+    if (is_requested_device(request, id)) view.devices.try_emplace(id, unknown);
   }
   for (record::Record& record : store.records(run)) {
-    if (record.plan != request.plan || !asked_for(request, record.device)) continue;
+    if (record.plan != request.plan || !is_requested_device(request, record.device)) continue;
     // Adds the device if the store does not describe it. In this case, only its id is known, so no
     // baselines match it.
     record::Device unknown;
@@ -71,7 +72,7 @@ RunView view_of(const record::Store& store, const std::string& run, const Baseli
   }
   for (const record::Record& record : view.records) {
     if (record.outcome != record::Outcome::measured) continue;
-    (other_data(view, record) ? view.of_other_data : view.measured).push_back(&record);
+    (other_data(view, record) ? view.with_other_data : view.measured).push_back(&record);
   }
   return view;
 }
@@ -102,14 +103,14 @@ void report_outcomes(const RunView& view, std::vector<Finding>& findings) {
     if (record.outcome == record::Outcome::measured) continue;
     if (scored && record.outcome != record::Outcome::skipped) continue;
     const bool skipped = record.outcome == record::Outcome::skipped;
-    const bool missed = skipped && measured_before(view, record);
-    const Verdict verdict = !skipped                                  ? Verdict::regression
-                            : missed || record::has_bad_input(record) ? Verdict::cannot_judge
-                                                                      : Verdict::skipped;
+    const bool lost_support = skipped && measured_before(view, record);
+    const Verdict verdict = !skipped                                        ? Verdict::regression
+                            : lost_support || record::has_bad_input(record) ? Verdict::cannot_judge
+                                                                            : Verdict::skipped;
     findings.push_back(
         finding_about(record, check, verdict,
                       {.cause = Cause::ended, .outcome = record.outcome, .reason = record.reason}));
-    findings.back().measured_before = missed;
+    findings.back().measured_before = lost_support;
   }
 }
 
@@ -133,7 +134,7 @@ void report_nothing_measured(const RunView& view, const std::string& run,
   const Check check = *view.checks.begin();
   if (run.empty()) {
     findings.push_back(finding_about(view, check, Verdict::cannot_judge, {.cause = Cause::no_run}));
-  } else if (view.measured.empty() && view.of_other_data.empty()) {
+  } else if (view.measured.empty() && view.with_other_data.empty()) {
     findings.push_back(
         finding_about(view, check, Verdict::cannot_judge,
                       {.cause = Cause::nothing_measured,
@@ -144,23 +145,23 @@ void report_nothing_measured(const RunView& view, const std::string& run,
 }
 
 std::set<std::string> configurations_of(const RunView& view, const std::string& device) {
-  std::set<std::string> there;
+  std::set<std::string> recorded;
   for (const record::Record& record : view.records) {
-    if (record.device == device) there.insert(record.configuration);
+    if (record.device == device) recorded.insert(record.configuration);
   }
-  return there;
+  return recorded;
 }
 
 void report_missing(const RunView& view, const record::Device& device,
-                    const std::set<std::string>& wanted, const std::set<std::string>& there,
+                    const std::set<std::string>& expected, const std::set<std::string>& recorded,
                     std::string_view kind, std::vector<Finding>& findings) {
   std::vector<std::string> missing;
-  std::ranges::set_difference(wanted, there, std::back_inserter(missing));
+  std::ranges::set_difference(expected, recorded, std::back_inserter(missing));
   if (missing.empty()) return;
   findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
                                    {.cause = Cause::missing,
                                     .numbers = {{"missing", static_cast<double>(missing.size())},
-                                                {"wanted", static_cast<double>(wanted.size())}},
+                                                {"wanted", static_cast<double>(expected.size())}},
                                     .names = missing,
                                     .facts = {{"kind", std::string(kind)}}},
                                    {Advice::resume, fmt::format("triptych run {} --resume{}",
@@ -170,7 +171,7 @@ void report_missing(const RunView& view, const record::Device& device,
 
 // Reports missing and extra records. Every device must have a record, with any outcome, for every
 // configuration of the plan and for every accepted configuration, but for no other configuration.
-void report_rows(const RunView& view, std::vector<Finding>& findings) {
+void report_coverage(const RunView& view, std::vector<Finding>& findings) {
   const std::vector<std::string> planned =
       view.request.expected.empty() ? view.store.planned(view.run) : view.request.expected;
   const std::set<std::string> expected(planned.begin(), planned.end());
@@ -179,13 +180,13 @@ void report_rows(const RunView& view, std::vector<Finding>& findings) {
     for (std::string& each : view.baselines.configurations()) accepted.insert(std::move(each));
   }
   for (const auto& [id, device] : view.devices) {
-    const std::set<std::string> there = configurations_of(view, id);
-    report_missing(view, device, expected, there, "planned", findings);
-    std::set<std::string> told = there;
-    told.insert(expected.begin(), expected.end());
-    report_missing(view, device, accepted, told, "accepted", findings);
+    const std::set<std::string> recorded = configurations_of(view, id);
+    report_missing(view, device, expected, recorded, "planned", findings);
+    std::set<std::string> covered = recorded;
+    covered.insert(expected.begin(), expected.end());
+    report_missing(view, device, accepted, covered, "accepted", findings);
     std::vector<std::string> extra;
-    std::ranges::set_difference(there, expected, std::back_inserter(extra));
+    std::ranges::set_difference(recorded, expected, std::back_inserter(extra));
     if (expected.empty() || extra.empty()) continue;
     findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
                                      {.cause = Cause::extra, .names = extra}, {Advice::run_again}));
@@ -208,18 +209,19 @@ void report_other_plan(const RunView& view, const std::string& run,
 }
 
 void report_other_data(const RunView& view, std::vector<Finding>& findings) {
-  for (const record::Record* record : view.of_other_data) {
-    Observation what = other_data(view, *record).value_or(Observation{});
-    Advised advice = what.cause == Cause::other_data ? view.accept(Advice::restore_data)
-                                                     : Advised{Advice::restore_or_run_again};
+  for (const record::Record* record : view.with_other_data) {
+    Observation observation = other_data(view, *record).value_or(Observation{});
+    AdviceWithCommand advice = observation.cause == Cause::other_data
+                                   ? view.accept(Advice::restore_data)
+                                   : AdviceWithCommand{Advice::restore_or_run_again};
     findings.push_back(finding_about(*record, *view.checks.begin(), Verdict::cannot_judge,
-                                     std::move(what), std::move(advice)));
+                                     std::move(observation), std::move(advice)));
   }
 }
 
 void report_no_baselines(const RunView& view, std::vector<Finding>& findings) {
   const std::string& problem = view.baselines.problem();
-  Advised advice = view.accept();
+  AdviceWithCommand advice = view.accept();
   if (!problem.empty()) {
     advice.advice = Advice::restore_baselines;
     advice.command += " --drop";
@@ -236,7 +238,7 @@ void append(std::vector<Finding>& findings, std::vector<Finding> more) {
 }
 
 // The input of the checks, and the results, to which each check adds its findings.
-struct Judging {
+struct JudgingState {
   const RunView& view;
   GateResult& result;
   WrongImages wrong = {};
@@ -244,57 +246,61 @@ struct Judging {
 
 // Images are also compared for the check `timing`, because the time of a wrong image is
 // meaningless.
-void judge_images(Judging& all) {
-  const bool wanted = all.view.checks.contains(Check::image);
-  const bool for_times = all.view.baselines.present() && all.view.request.truth &&
-                         all.view.checks.contains(Check::timing);
-  if (!wanted && !for_times) return;
-  ImageFindings images = check_images(all.view);
-  if (wanted) append(all.result.findings, std::move(images.findings));
-  all.wrong = std::move(images.wrong);
+void judge_images(JudgingState& state) {
+  const bool requested = state.view.checks.contains(Check::image);
+  const bool for_times = state.view.baselines.present() && state.view.request.truth &&
+                         state.view.checks.contains(Check::timing);
+  if (!requested && !for_times) return;
+  ImageFindings images = check_images(state.view);
+  if (requested) append(state.result.findings, std::move(images.findings));
+  state.wrong = std::move(images.wrong);
 }
 
 // One row for each check except `image`, in the order in which the checks run. A test requires that
 // this table and record::every_check contain the same checks.
 struct CheckRow {
   Check check;
-  bool against_baselines;  // whether the check needs baselines
-  void (*judge)(Judging&);
+  bool needs_baselines;
+  void (*judge)(JudgingState&);
 };
 constexpr std::array check_rows{
     CheckRow{Check::accuracy, false,
-             [](Judging& all) {
-               AccuracyFindings found = check_accuracies(all.view);
-               append(all.result.findings, std::move(found.findings));
-               all.result.accuracies = std::move(found.scenes);
+             [](JudgingState& state) {
+               AccuracyFindings found = check_accuracies(state.view);
+               append(state.result.findings, std::move(found.findings));
+               state.result.accuracies = std::move(found.scenes);
              }},
     CheckRow{Check::stress, false,
-             [](Judging& all) { append(all.result.findings, check_stress(all.view)); }},
-    CheckRow{Check::counters, true,
-             [](Judging& all) { append(all.result.findings, check_counters(all.view)); }},
-    CheckRow{Check::statistics, true,
-             [](Judging& all) { append(all.result.findings, check_statistics(all.view)); }},
+             [](JudgingState& state) { append(state.result.findings, check_stress(state.view)); }},
+    CheckRow{
+        Check::counters, true,
+        [](JudgingState& state) { append(state.result.findings, check_counters(state.view)); }},
+    CheckRow{
+        Check::statistics, true,
+        [](JudgingState& state) { append(state.result.findings, check_statistics(state.view)); }},
     CheckRow{Check::cost, true,
-             [](Judging& all) { append(all.result.findings, check_cost(all.view)); }},
+             [](JudgingState& state) { append(state.result.findings, check_cost(state.view)); }},
     CheckRow{Check::code, true,
-             [](Judging& all) { append(all.result.findings, check_code(all.view)); }},
+             [](JudgingState& state) { append(state.result.findings, check_code(state.view)); }},
     CheckRow{Check::memory, true,
-             [](Judging& all) { append(all.result.findings, check_memory(all.view)); }},
+             [](JudgingState& state) { append(state.result.findings, check_memory(state.view)); }},
     CheckRow{Check::correlation, true,
-             [](Judging& all) {
-               CorrelationFindings found = check_correlations(all.view, all.wrong);
-               append(all.result.findings, std::move(found.findings));
-               all.result.correlations = std::move(found.pairs);
+             [](JudgingState& state) {
+               CorrelationFindings found = check_correlations(state.view, state.wrong);
+               append(state.result.findings, std::move(found.findings));
+               state.result.correlations = std::move(found.pairs);
              }},
     CheckRow{Check::timing, true,
-             [](Judging& all) { append(all.result.findings, check_timings(all.view, all.wrong)); }},
+             [](JudgingState& state) {
+               append(state.result.findings, check_timings(state.view, state.wrong));
+             }},
 };
 
-void run_checks(Judging& all) {
-  judge_images(all);
+void run_checks(JudgingState& state) {
+  judge_images(state);
   for (const CheckRow& row : check_rows) {
-    const bool possible = !row.against_baselines || all.view.baselines.present();
-    if (possible && all.view.checks.contains(row.check)) row.judge(all);
+    const bool possible = !row.needs_baselines || state.view.baselines.present();
+    if (possible && state.view.checks.contains(row.check)) row.judge(state);
   }
 }
 
@@ -333,7 +339,7 @@ std::string other_programs(const RunView& view) {
   return fmt::format("{}; judged by {}", fmt::join(programs, " and "), view.request.program);
 }
 
-void report_what_is_there(const RunView& view, GateResult& result) {
+void report_run_contents(const RunView& view, GateResult& result) {
   for (const record::Record* record : view.measured) result.devices.insert(record->device);
   for (const auto& [id, device] : view.devices) result.environments[id] = device.environment;
   for (const record::Beginning& each : view.run.begun) {
@@ -344,12 +350,12 @@ void report_what_is_there(const RunView& view, GateResult& result) {
   }
   result.measured_by = other_programs(view);
   const std::string day = view.run.started_at.substr(0, 10);
-  if (days_between(day, view.request.today).value_or(0) > 1) result.began = day;
+  if (days_between(day, view.request.today).value_or(0) > 1) result.old_run_date = day;
   report_nothing_measured(view, result.run, result.findings);
   report_outcomes(view, result.findings);
   report_device_faults(view, result.findings);
   report_other_plan(view, result.run, result.findings);
-  report_rows(view, result.findings);
+  report_coverage(view, result.findings);
   report_other_data(view, result.findings);
   if (!view.baselines.present()) report_no_baselines(view, result.findings);
 }
@@ -357,9 +363,9 @@ void report_what_is_there(const RunView& view, GateResult& result) {
 // Reports devices on which something was measured but that have only advisories and skips, because
 // such a device must not pass. Without baselines, this would be true for every device, so nothing
 // is reported.
-void report_nothing_decided(const RunView& view, GateResult& result) {
+void report_undecided_devices(const RunView& view, GateResult& result) {
   if (!view.request.decides_each_device || !view.baselines.present()) return;
-  for (const std::string& device : result.nothing_decided()) {
+  for (const std::string& device : result.undecided_devices()) {
     result.findings.push_back(
         finding_about(view, view.devices.at(device), *view.checks.begin(), Verdict::cannot_judge,
                       {.cause = Cause::nothing_decided}, view.accept(Advice::judge_more)));
@@ -368,7 +374,7 @@ void report_nothing_decided(const RunView& view, GateResult& result) {
 
 // Adds to each regression on a new driver version the devices on which its configuration was
 // accepted. If the result was correct there, the driver and not Triptych is the likely cause.
-void tell_where_accepted(const RunView& view, std::vector<Finding>& findings) {
+void add_accepting_devices(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present()) return;
   for (Finding& each : findings) {
     if (each.verdict != Verdict::regression || each.configuration.empty()) continue;
@@ -414,14 +420,14 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   result.defaults = request.defaults;
   result.times_decided = request.times_decide;
   result.part = request.part;
-  report_what_is_there(view, result);
-  report_as_begun(view, result.findings);
-  Judging all{view, result};
-  run_checks(all);
+  report_run_contents(view, result);
+  report_incomplete_run(view, result.findings);
+  JudgingState state{view, result};
+  run_checks(state);
   apply_waivers(view, result.findings);
-  apply_known(view, result.findings);
-  report_nothing_decided(view, result);
-  tell_where_accepted(view, result.findings);
+  apply_expected_outcomes(view, result.findings);
+  report_undecided_devices(view, result);
+  add_accepting_devices(view, result.findings);
   sort_findings(result.findings);
   return result;
 }

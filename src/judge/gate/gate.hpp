@@ -47,9 +47,9 @@ struct GateResult {
   std::vector<record::Unusable> unusable = {};
   std::map<std::string, std::size_t> injected = {};
   std::string measured_by = {};
-  std::string began = {};
+  std::string old_run_date = {};
   // Returns the devices that have only advisories and skips.
-  [[nodiscard]] std::vector<std::string> nothing_decided() const;
+  [[nodiscard]] std::vector<std::string> undecided_devices() const;
   [[nodiscard]] core::ExitCode exit_code() const;
 };
 
@@ -61,7 +61,7 @@ struct GateRequest {
   // " --store FILE" and " --baselines FOLDER" for printed commands; empty for the defaults.
   std::string store_option = {};
   std::string baselines_option = {};
-  std::set<Check> checks;            // empty: the checks of the run's plan (checked_in)
+  std::set<Check> checks;            // empty: the checks of the run's plan (checks_of_run)
   std::vector<std::string> devices;  // globs; empty: all devices in the run
   // Globs, each of which must match a device on which something was measured.
   std::vector<std::string> required_devices;
@@ -102,7 +102,7 @@ struct GateRequest {
   // The known failures and skips. A configuration that is not in this list must pass; if it is
   // skipped, it cannot be judged. nullopt means that there is no list, so any configuration may be
   // skipped.
-  std::optional<std::vector<Waiver>> known = {};
+  std::optional<std::vector<Waiver>> expected_outcomes = {};
   // Returns the current content hash of the data from which the record's reference image is drawn,
   // in the record's voxel format, or "" if it is not known. If the function is empty, the data are
   // assumed to be unchanged.

@@ -13,7 +13,7 @@ namespace {
 // have eight bits, and so does Triptych's rasterizer for OpenCL.
 constexpr double usual_bits = 8;
 
-std::optional<double> told(const record::Record& record, const char* name) {
+std::optional<double> precision_of(const record::Record& record, const char* name) {
   const auto found = record.precision.find(name);
   return found == record.precision.end() ? std::nullopt : std::optional(found->second);
 }
@@ -51,16 +51,17 @@ bool is_open(const std::string& counter, const record::Record& record) {
 double open_fragments(const std::string& counter, const record::Record& record) {
   constexpr double deviations = 5;
   if (!is_open(counter, record)) return 0;
-  const double bits = told(record, "sub_pixel_bits").value_or(usual_bits);
-  const double larger =
-      std::max(0.0, 2 * std::exp2(-bits) - 1.0 / 64) + told(record, "point_margin").value_or(0);
-  const double apart = std::exp2(-bits) + std::exp2(-usual_bits) + larger;
+  const double bits = precision_of(record, "sub_pixel_bits").value_or(usual_bits);
+  const double enlargement = std::max(0.0, 2 * std::exp2(-bits) - 1.0 / 64) +
+                             precision_of(record, "point_margin").value_or(0);
+  const double displacement = std::exp2(-bits) + std::exp2(-usual_bits) + enlargement;
   const double fragments = count_of(record.counters, "fragments").value_or(0);
   const double sprites = count_of(record.counters, "sprites").value_or(0);
-  const double in_sight = count_of(record.counters, "visible_ids").value_or(0);
-  const double together = std::max(1.0, sprites / std::max(1.0, in_sight));
-  return apart * 4 * std::sqrt(sprites * fragments) + 4 * apart * apart * sprites +
-         deviations * std::sqrt(4 * apart * fragments * together);
+  const double visible = count_of(record.counters, "visible_ids").value_or(0);
+  const double overlap = std::max(1.0, sprites / std::max(1.0, visible));
+  return displacement * 4 * std::sqrt(sprites * fragments) +
+         4 * displacement * displacement * sprites +
+         deviations * std::sqrt(4 * displacement * fragments * overlap);
 }
 
 }  // namespace triptych::judge

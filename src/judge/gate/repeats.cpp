@@ -9,10 +9,10 @@
 namespace triptych::judge {
 namespace {
 
-using WorstOfCases = std::map<CaseKey, const Finding*>;
+using WorstFindings = std::map<CaseKey, const Finding*>;
 
-WorstOfCases worst_of(const Repetition& repetition) {
-  WorstOfCases worst;
+WorstFindings worst_findings(const Repetition& repetition) {
+  WorstFindings worst;
   for (const GateResult& result : repetition.results) {
     for (const Finding& finding : result.findings) {
       if (finding.device.empty() || finding.configuration.empty()) continue;
@@ -23,7 +23,7 @@ WorstOfCases worst_of(const Repetition& repetition) {
   return worst;
 }
 
-bool is_of(const Finding& finding, const CaseKey& key) {
+bool is_about(const Finding& finding, const CaseKey& key) {
   return finding.device == key.device && finding.configuration == key.configuration;
 }
 
@@ -33,7 +33,7 @@ std::size_t RepeatedCase::failures() const {
   return static_cast<std::size_t>(std::ranges::count(verdicts, Verdict::regression));
 }
 
-bool RepeatedCase::flakes() const {
+bool RepeatedCase::is_flaky() const {
   return failures() > 0 && failures() < verdicts.size();
 }
 
@@ -41,7 +41,7 @@ std::vector<RepeatedCase> repeated_cases(std::span<const Repetition> repetitions
   std::map<CaseKey, RepeatedCase> cases;
   std::map<CaseKey, std::set<std::string>> images;
   for (const Repetition& repetition : repetitions) {
-    for (const auto& [key, finding] : worst_of(repetition)) {
+    for (const auto& [key, finding] : worst_findings(repetition)) {
       RepeatedCase& each = cases[key];
       each.key = key;
       each.verdicts.push_back(finding->verdict);
@@ -59,13 +59,13 @@ std::vector<RepeatedCase> repeated_cases(std::span<const Repetition> repetitions
 
 void add_flakes(std::span<const RepeatedCase> cases, std::vector<GateResult>& first) {
   for (const RepeatedCase& each : cases) {
-    if (!each.flakes()) continue;
+    if (!each.is_flaky()) continue;
     const auto result = std::ranges::find(first, each.key.plan, &GateResult::plan);
     if (result == first.end()) continue;
     Finding flake = each.worst.value();
-    flake.drawn_again = Again::flake;
+    flake.retry_result = RetryResult::flake;
     std::erase_if(result->findings, [&](const Finding& finding) {
-      return is_of(finding, each.key) && finding.check == flake.check;
+      return is_about(finding, each.key) && finding.check == flake.check;
     });
     result->findings.push_back(std::move(flake));
     sort_findings(result->findings);

@@ -34,7 +34,7 @@ struct RepeatedCase {
   std::optional<Finding> worst;   // the finding of the first repetition with the worst verdict
 
   // Returns whether the case fails in some repetitions and not in others.
-  [[nodiscard]] bool flakes() const;
+  [[nodiscard]] bool is_flaky() const;
   [[nodiscard]] std::size_t failures() const;
 };
 

@@ -26,14 +26,14 @@ bool is_decision(Verdict verdict) {
 
 }  // namespace
 
-std::vector<std::string> GateResult::nothing_decided() const {
+std::vector<std::string> GateResult::undecided_devices() const {
   std::set<std::string> decided;
   for (const Finding& finding : findings) {
     if (is_decision(finding.verdict)) decided.insert(finding.device);
   }
-  std::vector<std::string> without;
-  std::ranges::set_difference(devices, decided, std::back_inserter(without));
-  return without;
+  std::vector<std::string> undecided;
+  std::ranges::set_difference(devices, decided, std::back_inserter(undecided));
+  return undecided;
 }
 
 // The gate passes only if it reached at least one decision, and at least one for each device.
@@ -41,7 +41,8 @@ core::ExitCode GateResult::exit_code() const {
   if (count(*this, Verdict::regression) > 0) return core::ExitCode::regression;
   if (count(*this, Verdict::cannot_judge) > 0) return core::ExitCode::cannot_judge;
   const bool decided = std::ranges::any_of(findings, is_decision, &Finding::verdict);
-  return decided && nothing_decided().empty() ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+  return decided && undecided_devices().empty() ? core::ExitCode::pass
+                                                : core::ExitCode::cannot_judge;
 }
 
 bool RunView::knows_driver(const record::Device& device) const {
@@ -50,7 +51,7 @@ bool RunView::knows_driver(const record::Device& device) const {
   return found != accepted.end() && found->second.contains(device.statistics_key());
 }
 
-std::string RunView::plan_test(Check check) const {
+std::string RunView::plan_test_id(Check check) const {
   std::string test = request.plan;
   std::ranges::replace(test, '/', '.');
   return fmt::format("{}.{}", test, name_of(check));
@@ -64,7 +65,7 @@ std::string RunView::today() const {
   return std::max(request.today, run.started_at.substr(0, 10));
 }
 
-Advised RunView::accept(Advice advice) const {
+AdviceWithCommand RunView::accept(Advice advice) const {
   return {advice,
           fmt::format("triptych accept {}{}{} --reason TEXT", core::shell_quoted(argument()),
                       request.store_option, request.baselines_option)};
@@ -72,9 +73,10 @@ Advised RunView::accept(Advice advice) const {
 
 namespace {
 
-Finding finding(Check check, Verdict verdict, Observation what, Advised advice) {
+Finding make_finding(Check check, Verdict verdict, Observation observation,
+                     AdviceWithCommand advice) {
   Finding result;
-  static_cast<Observation&>(result) = std::move(what);
+  static_cast<Observation&>(result) = std::move(observation);
   result.check = check;
   result.verdict = verdict;
   result.advice = std::move(advice);
@@ -83,9 +85,9 @@ Finding finding(Check check, Verdict verdict, Observation what, Advised advice) 
 
 }  // namespace
 
-Finding finding_about(const record::Record& record, Check check, Verdict verdict, Observation what,
-                      Advised advice) {
-  Finding result = finding(check, verdict, std::move(what), std::move(advice));
+Finding finding_about(const record::Record& record, Check check, Verdict verdict,
+                      Observation observation, AdviceWithCommand advice) {
+  Finding result = make_finding(check, verdict, std::move(observation), std::move(advice));
   result.test = record.test_id(name_of(check));
   result.device = record.device;
   result.configuration = record.configuration;
@@ -96,20 +98,20 @@ Finding finding_about(const record::Record& record, Check check, Verdict verdict
 }
 
 Finding finding_about(const RunView& view, const record::Device& device, Check check,
-                      Verdict verdict, Observation what, Advised advice) {
-  Finding result = finding(check, verdict, std::move(what), std::move(advice));
+                      Verdict verdict, Observation observation, AdviceWithCommand advice) {
+  Finding result = make_finding(check, verdict, std::move(observation), std::move(advice));
   result.device = device.id;
   for (const record::Record& record : view.records) {
     if (record.device == device.id) result.test = record.test_id(name_of(check));
   }
-  if (result.test.empty()) result.test = view.plan_test(check) + "." + device.id;
+  if (result.test.empty()) result.test = view.plan_test_id(check) + "." + device.id;
   return result;
 }
 
-Finding finding_about(const RunView& view, Check check, Verdict verdict, Observation what,
-                      Advised advice) {
-  Finding result = finding(check, verdict, std::move(what), std::move(advice));
-  result.test = view.plan_test(check);
+Finding finding_about(const RunView& view, Check check, Verdict verdict, Observation observation,
+                      AdviceWithCommand advice) {
+  Finding result = make_finding(check, verdict, std::move(observation), std::move(advice));
+  result.test = view.plan_test_id(check);
   return result;
 }
 

@@ -22,7 +22,7 @@ struct RunView {
   std::vector<const record::Record*> measured;    // pointers into `records`
   // Measured records whose data differ from the accepted data, or whose data have changed since the
   // measurement.
-  std::vector<const record::Record*> of_other_data;
+  std::vector<const record::Record*> with_other_data;
 
   [[nodiscard]] const record::Device& device(const record::Record& record) const {
     return devices.at(record.device);
@@ -30,24 +30,25 @@ struct RunView {
   // Returns whether this version of the device's driver was accepted.
   [[nodiscard]] bool knows_driver(const record::Device& device) const;
   // Returns the test id of findings that belong to no device.
-  [[nodiscard]] std::string plan_test(Check check) const;
+  [[nodiscard]] std::string plan_test_id(Check check) const;
   // Returns the plan as a command-line argument.
   [[nodiscard]] std::string argument() const;
   // Returns the date that decides whether a waiver has expired: GateRequest::today or the day of
   // the run, whichever is later, so that setting the clock back does not revive an expired waiver.
   [[nodiscard]] std::string today() const;
   // Returns advice with the `triptych accept` command that creates or updates the baselines.
-  [[nodiscard]] Advised accept(Advice advice = Advice::accept) const;
+  [[nodiscard]] AdviceWithCommand accept(Advice advice = Advice::accept) const;
 };
 
 [[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,
-                                    Observation what, Advised advice = {});
+                                    Observation observation, AdviceWithCommand advice = {});
 // Creates a finding about a device as a whole, without a configuration.
 [[nodiscard]] Finding finding_about(const RunView& view, const record::Device& device, Check check,
-                                    Verdict verdict, Observation what, Advised advice = {});
+                                    Verdict verdict, Observation observation,
+                                    AdviceWithCommand advice = {});
 // Creates a finding about the whole plan.
 [[nodiscard]] Finding finding_about(const RunView& view, Check check, Verdict verdict,
-                                    Observation what, Advised advice = {});
+                                    Observation observation, AdviceWithCommand advice = {});
 // Sorts by verdict (the worst first), then by device, then by the size of the change.
 void sort_findings(std::vector<Finding>& findings);
 
@@ -89,7 +90,7 @@ void report_required_devices(const RunView& view, std::vector<Finding>& findings
 
 // Reports checks that the baselines contain but the plan no longer requests, devices that the run
 // does not describe, device enumerations that failed, and accepted devices that are missing.
-void report_as_begun(const RunView& view, std::vector<Finding>& findings);
+void report_incomplete_run(const RunView& view, std::vector<Finding>& findings);
 
 // Returns whether an unexpired entry of waivers.json covers findings of this check about the
 // record.
@@ -99,9 +100,9 @@ void report_as_begun(const RunView& view, std::vector<Finding>& findings);
 // excuse nothing, and waivers that match no test.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 
-// Compares findings with GateRequest::known. A known failure becomes `waived`, a pass that is
-// listed as a failure or as a skip becomes `improved`, and a skip that is not listed becomes
-// `cannot_judge`.
-void apply_known(const RunView& view, std::vector<Finding>& findings);
+// Compares findings with GateRequest::expected_outcomes. A known failure becomes `waived`, a pass
+// that is listed as a failure or as a skip becomes `improved`, and a skip that is not listed
+// becomes `cannot_judge`.
+void apply_expected_outcomes(const RunView& view, std::vector<Finding>& findings);
 
 }  // namespace triptych::judge

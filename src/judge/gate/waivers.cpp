@@ -20,34 +20,38 @@ bool has_expired(const Waiver& waiver, const RunView& view) {
 
 // Returns the entry of GateRequest::known that covers the finding and is of one of these kinds, or
 // nullptr if there is none.
-const Waiver* known_of(const RunView& view, const Finding& finding, const std::set<Known>& kinds) {
-  const auto found = std::ranges::find_if(*view.request.known, [&](const Waiver& each) {
-    return kinds.contains(each.known) && !has_expired(each, view) &&
+const Waiver* find_expected_outcome(const RunView& view, const Finding& finding,
+                                    const std::set<ExpectedOutcome>& kinds) {
+  const auto found = std::ranges::find_if(*view.request.expected_outcomes, [&](const Waiver& each) {
+    return kinds.contains(each.outcome) && !has_expired(each, view) &&
            covers(each, finding.device, finding.test, finding.configuration);
   });
-  return found == view.request.known->end() ? nullptr : &*found;
+  return found == view.request.expected_outcomes->end() ? nullptr : &*found;
 }
 
-void compare_with_known(const RunView& view, Finding& finding) {
+void compare_with_expected(const RunView& view, Finding& finding) {
   switch (finding.verdict) {
     case Verdict::regression:
-      if (const Waiver* known = known_of(view, finding, {Known::fail, Known::flake})) {
+      if (const Waiver* known = find_expected_outcome(
+              view, finding, {ExpectedOutcome::fail, ExpectedOutcome::flake})) {
         finding.verdict = Verdict::waived;
-        finding.excuse = {.of = Excuse::Of::known, .known = known->known, .reason = known->reason};
+        finding.excuse = {
+            .kind = Excuse::Kind::known, .outcome = known->outcome, .reason = known->reason};
       }
       break;
     case Verdict::skipped:
-      if (known_of(view, finding, {Known::skip}) == nullptr) {
+      if (find_expected_outcome(view, finding, {ExpectedOutcome::skip}) == nullptr) {
         finding.verdict = Verdict::cannot_judge;
-        finding.excuse = {.of = Excuse::Of::unexpected, .known = Known::skip};
+        finding.excuse = {.kind = Excuse::Kind::unexpected, .outcome = ExpectedOutcome::skip};
       }
       break;
     case Verdict::pass:
     case Verdict::improved:
-      if (const Waiver* known = known_of(view, finding, {Known::fail, Known::skip})) {
+      if (const Waiver* known = find_expected_outcome(
+              view, finding, {ExpectedOutcome::fail, ExpectedOutcome::skip})) {
         finding.verdict = Verdict::improved;
         finding.excuse = {
-            .of = Excuse::Of::unexpected, .known = known->known, .reason = known->reason};
+            .kind = Excuse::Kind::unexpected, .outcome = known->outcome, .reason = known->reason};
         finding.advice = {Advice::remove_entry};
       }
       break;
@@ -58,7 +62,7 @@ void compare_with_known(const RunView& view, Finding& finding) {
 
 // Returns whether the waiver covers any configuration and check that this gate judged. A waiver for
 // another plan covers none.
-bool concerns(const Waiver& waiver, const RunView& view) {
+bool concerns_run(const Waiver& waiver, const RunView& view) {
   return std::ranges::any_of(view.records, [&](const record::Record& record) {
     return std::ranges::any_of(view.checks, [&](Check check) {
       return covers(waiver, record.device, record.test_id(name_of(check)), record.configuration);
@@ -69,7 +73,7 @@ bool concerns(const Waiver& waiver, const RunView& view) {
 // Returns whether the waiver names this plan, but matches no test of it.
 bool matches_no_test(const Waiver& waiver, const RunView& view) {
   const record::Checks checks = record::every_check();
-  const std::string image = view.plan_test(Check::image);
+  const std::string image = view.plan_test_id(Check::image);
   const std::string plan = image.substr(0, image.rfind('.') + 1);
   return waiver.test.starts_with(plan) &&
          std::ranges::none_of(view.records, [&](const record::Record& record) {
@@ -88,10 +92,10 @@ bool is_waived(const RunView& view, const record::Record& record, Check check) {
   });
 }
 
-void apply_known(const RunView& view, std::vector<Finding>& findings) {
-  if (!view.request.known) return;
+void apply_expected_outcomes(const RunView& view, std::vector<Finding>& findings) {
+  if (!view.request.expected_outcomes) return;
   for (Finding& finding : findings) {
-    if (!finding.configuration.empty()) compare_with_known(view, finding);
+    if (!finding.configuration.empty()) compare_with_expected(view, finding);
   }
 }
 
@@ -105,7 +109,7 @@ void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
       }
       used = true;
       const bool expired = has_expired(waiver, view);
-      finding.excuse = {.of = expired ? Excuse::Of::expired : Excuse::Of::waived,
+      finding.excuse = {.kind = expired ? Excuse::Kind::expired : Excuse::Kind::waived,
                         .reason = waiver.reason,
                         .expiry = waiver.expiry};
       if (!expired) finding.verdict = Verdict::waived;
@@ -118,7 +122,7 @@ void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
            .detail = waiver.reason},
           {advice}));
     };
-    if (!used && has_expired(waiver, view) && concerns(waiver, view)) {
+    if (!used && has_expired(waiver, view) && concerns_run(waiver, view)) {
       advise(Cause::unused_waiver, Advice::remove_waiver);
     }
     if (matches_no_test(waiver, view)) advise(Cause::waiver_of_no_test, Advice::none);

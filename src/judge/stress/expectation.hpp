@@ -20,8 +20,8 @@ class StressRun {
 
   // Returns the record of the same device that has the levels in `changed`, and otherwise the same
   // levels as `record`. Returns nullptr if the run has no such record.
-  [[nodiscard]] const record::Record* other(const record::Record& record,
-                                            const record::Changed& changed) const;
+  [[nodiscard]] const record::Record* other_record(const record::Record& record,
+                                                   const record::Changed& changed) const;
   // Returns the image of a record, or nullptr if the record has no image or the image cannot be
   // read from the store.
   [[nodiscard]] const core::Image* image(const record::Record& record);
@@ -37,14 +37,14 @@ class StressRun {
 
 // Returns whether the run contains the second record with which the expectation compares `record`.
 // Returns true for an expectation that needs no second record.
-[[nodiscard]] bool has_other(const record::Expectation& expectation, const record::Record& record,
-                             const StressRun& run);
+[[nodiscard]] bool has_other_record(const record::Expectation& expectation,
+                                    const record::Record& record, const StressRun& run);
 
 // Returns nullopt if the record meets the expectation, otherwise an observation that states why the
 // expectation is not met. The record must have an image. The expectation MayBeRefused is always
 // met.
-[[nodiscard]] std::optional<Observation> unmet(const record::Expectation& expectation,
-                                               const record::Record& record, StressRun& run,
-                                               const FindTruth& truth);
+[[nodiscard]] std::optional<Observation> violation_of(const record::Expectation& expectation,
+                                                      const record::Record& record, StressRun& run,
+                                                      const FindTruth& truth);
 
 }  // namespace triptych::judge

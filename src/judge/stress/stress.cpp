@@ -30,23 +30,23 @@ struct Case {
   core::Image bound = {};           // the bound on the error of the image
 };
 
-class Scoring {
+class StressScoring {
  public:
-  Scoring(const record::Store& store, const std::vector<record::Record>& records,
-          const StressTruths& truths)
+  StressScoring(const record::Store& store, const std::vector<record::Record>& records,
+                const StressTruths& truths)
       : truths_(truths), run_(store, records) {
     for (const record::Record& record : records) {
-      if (auto each = first_points(record)) cases_.push_back(std::move(*each));
+      if (auto each = score_record(record)) cases_.push_back(std::move(*each));
     }
   }
 
-  [[nodiscard]] std::vector<StressScored> finish() && {
+  [[nodiscard]] std::vector<ScoredRecord> finish() && {
     std::map<std::string, std::vector<Case*>> by_configuration;
     for (Case& each : cases_) by_configuration[each.record->configuration].push_back(&each);
     for (const auto& [configuration, cases] : by_configuration) {
       for (Case* each : cases) judge_agreement(*each, cases);
     }
-    std::vector<StressScored> result;
+    std::vector<ScoredRecord> result;
     for (Case& each : cases_) result.push_back({each.record, std::move(each.score)});
     return result;
   }
@@ -58,16 +58,17 @@ class Scoring {
 
   // Scores a case, except for the point for agreement with other devices. Returns nullopt for a
   // case that is not scored, because the device does not support it.
-  std::optional<Case> first_points(const record::Record& record) {
+  std::optional<Case> score_record(const record::Record& record) {
     Case result{&record};
     StressScore& score = result.score;
     const auto expected = expectations(record);
     if (record.outcome == record::Outcome::skipped) {
-      const bool refusable = std::ranges::any_of(expected, [](const record::Expectation& each) {
-        return std::holds_alternative<record::MayBeRefused>(each.rule);
-      });
-      if (!refusable) return std::nullopt;
-      score.drawn = score.right = score.agreed = true;
+      const bool may_be_refused =
+          std::ranges::any_of(expected, [](const record::Expectation& each) {
+            return std::holds_alternative<record::MayBeRefused>(each.rule);
+          });
+      if (!may_be_refused) return std::nullopt;
+      score.drawn = score.correct = score.agreed = true;
       return result;
     }
     const core::Image* image = nullptr;
@@ -97,13 +98,13 @@ class Scoring {
     }
     const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
     Observation found = image_observation(comparison, image, pair.truth, Against::reference);
-    score.right = found.cause == Cause::within_bound;
-    if (!score.right) score.lost.push_back(std::move(found));
+    score.correct = found.cause == Cause::within_bound;
+    if (!score.correct) score.lost.push_back(std::move(found));
     for (const record::Expectation& each : expected) {
-      if (truths_.part && !has_other(each, *result.record, run_)) continue;
-      auto wrong = unmet(each, *result.record, run_, truths_.truth);
+      if (truths_.part && !has_other_record(each, *result.record, run_)) continue;
+      auto wrong = violation_of(each, *result.record, run_, truths_.truth);
       if (!wrong) continue;
-      score.right = false;
+      score.correct = false;
       score.lost.push_back(std::move(*wrong));
     }
     if (!comparison.size_mismatch) {
@@ -117,10 +118,10 @@ class Scoring {
   void judge_agreement(Case& own, const std::vector<Case*>& cases) {
     if (!own.rmse) return;
     own.score.agreed = true;
-    const core::Image& mine = *run_.image(*own.record);
+    const core::Image& image = *run_.image(*own.record);
     for (const Case* other : cases) {
       if (other == &own || !other->rmse || !(*other->rmse <= *own.rmse)) continue;
-      const double rms = accuracy::root_mean_square(mine, *run_.image(*other->record), own.bound);
+      const double rms = accuracy::root_mean_square(image, *run_.image(*other->record), own.bound);
       if (rms < device_agreement) continue;
       own.score.agreed = false;
       own.score.lost.push_back({.cause = Cause::farther_device,
@@ -141,10 +142,10 @@ class Scoring {
 
 }  // namespace
 
-std::vector<StressScored> score_stress(const record::Store& store,
+std::vector<ScoredRecord> score_stress(const record::Store& store,
                                        const std::vector<record::Record>& records,
                                        const StressTruths& truths) {
-  return Scoring(store, records, truths).finish();
+  return StressScoring(store, records, truths).finish();
 }
 
 }  // namespace triptych::judge

@@ -28,18 +28,18 @@ struct StressTruths {
 };
 
 struct StressScore {
-  bool drawn = false;   // a finite image was drawn without a crash, a hang or an error
-  bool right = false;   // the image is within its bound, and all expectations of the case hold
-  bool agreed = false;  // every differing image of another device is farther from the reference
+  bool drawn = false;    // a finite image was drawn without a crash, a hang or an error
+  bool correct = false;  // the image is within its bound, and all expectations of the case hold
+  bool agreed = false;   // every differing image of another device is farther from the reference
   std::vector<Observation> lost = {};  // the reasons for the missing points
 
   [[nodiscard]] int points() const {
-    return static_cast<int>(drawn) + static_cast<int>(right) + static_cast<int>(agreed);
+    return static_cast<int>(drawn) + static_cast<int>(correct) + static_cast<int>(agreed);
   }
 };
 inline constexpr int best_stress_score = 3;
 
-struct StressScored {
+struct ScoredRecord {
   const record::Record* record;  // points into the given records
   StressScore score;
 };
@@ -48,7 +48,7 @@ struct StressScored {
 // with each other, and images with other images of the same device. A skipped record gets no score,
 // unless the case has the expectation MayBeRefused; in this case it gets all points. A
 // configuration that no other device drew gets the point for agreement.
-[[nodiscard]] std::vector<StressScored> score_stress(const record::Store& store,
+[[nodiscard]] std::vector<ScoredRecord> score_stress(const record::Store& store,
                                                      const std::vector<record::Record>& records,
                                                      const StressTruths& truths);
 

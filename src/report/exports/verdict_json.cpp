@@ -87,16 +87,18 @@ Json to_json(const judge::Finding& finding) {
     json["advice"] = {{"kind", judge::name_of(finding.advice.advice)},
                       {"command", finding.advice.command}};
   }
-  if (finding.excuse.of != judge::Excuse::Of::nothing) {
-    json["excuse"] = {{"kind", judge::name_of(finding.excuse.of)},
-                      {"known", judge::name_of(finding.excuse.known)},
+  if (finding.excuse.kind != judge::Excuse::Kind::nothing) {
+    json["excuse"] = {{"kind", judge::name_of(finding.excuse.kind)},
+                      {"known", judge::name_of(finding.excuse.outcome)},
                       {"reason", finding.excuse.reason},
                       {"expiry", finding.excuse.expiry}};
   }
-  if (finding.drawn_again != judge::Again::not_drawn) {
-    json["drawn_again"] = judge::name_of(finding.drawn_again);
+  if (finding.retry_result != judge::RetryResult::not_drawn) {
+    json["drawn_again"] = judge::name_of(finding.retry_result);
   }
-  for (const judge::Observation& each : finding.again) json["again"] = observation_json(each);
+  for (const judge::Observation& each : finding.retry_observations) {
+    json["again"] = observation_json(each);
+  }
   return json;
 }
 

@@ -15,7 +15,7 @@ std::string repeats_text(std::span<const judge::RepeatedCase> cases, std::size_t
   for (const judge::RepeatedCase& each : cases) {
     const std::string name =
         fmt::format("{} {} {}", each.key.plan, each.key.device, each.key.configuration);
-    if (each.flakes()) {
+    if (each.is_flaky()) {
       ++flaking;
       text += fmt::format("{}: fails in {} of {} repetitions: {}\n", name, each.failures(),
                           each.verdicts.size(),
@@ -41,7 +41,7 @@ std::string repeats_json_lines(std::span<const judge::RepeatedCase> cases) {
                     {"device", each.key.device},
                     {"configuration", each.key.configuration},
                     {"verdicts", core::Json::array()},
-                    {"flakes", each.flakes()},
+                    {"flakes", each.is_flaky()},
                     {"images", each.images}};
     for (const judge::Verdict verdict : each.verdicts) {
       json["verdicts"].push_back(judge::name_of(verdict));

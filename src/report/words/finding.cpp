@@ -14,11 +14,11 @@ namespace triptych::report::words {
 namespace {
 
 using judge::Advice;
-using judge::Again;
 using judge::Excuse;
+using judge::ExpectedOutcome;
 using judge::Finding;
 using judge::GateResult;
-using judge::Known;
+using judge::RetryResult;
 using judge::Verdict;
 
 // Returns a prefix for the sentence about a finding, such as "known failure: " or "unexpectedly
@@ -26,33 +26,34 @@ using judge::Verdict;
 // failures); it is empty if they do not concern the finding.
 std::string excuse(const Finding& finding) {
   const Excuse& excuse = finding.excuse;
-  switch (excuse.of) {
-    case Excuse::Of::waived:
+  switch (excuse.kind) {
+    case Excuse::Kind::waived:
       return fmt::format("waived until {} ({}): ", excuse.expiry, excuse.reason);
-    case Excuse::Of::known:
-      return excuse.known == Known::fail ? "known failure: "
-                                         : fmt::format("known {}: ", judge::name_of(excuse.known));
-    case Excuse::Of::unexpected:
+    case Excuse::Kind::known:
+      return excuse.outcome == ExpectedOutcome::fail
+                 ? "known failure: "
+                 : fmt::format("known {}: ", judge::name_of(excuse.outcome));
+    case Excuse::Kind::unexpected:
       return finding.verdict == Verdict::improved
                  ? fmt::format("passes, although the expectations file lists it as '{}' ({}): ",
-                               judge::name_of(excuse.known), excuse.reason)
+                               judge::name_of(excuse.outcome), excuse.reason)
                  : "unexpectedly skipped: ";
-    case Excuse::Of::expired:
-    case Excuse::Of::nothing:
+    case Excuse::Kind::expired:
+    case Excuse::Kind::nothing:
       break;
   }
   return {};
 }
 
 std::string drawn_again(const Finding& finding) {
-  switch (finding.drawn_again) {
-    case Again::not_drawn:
+  switch (finding.retry_result) {
+    case RetryResult::not_drawn:
       break;
-    case Again::flake:
+    case RetryResult::flake:
       return "flake (correct when drawn again): ";
-    case Again::slow:
+    case RetryResult::slow:
       return "correct when drawn again, so the device is slow or sometimes hangs: ";
-    case Again::other:
+    case RetryResult::other:
       break;
   }
   return {};
@@ -107,11 +108,11 @@ std::string found(const Finding& finding) {
   if (finding.measured_before) {
     text += "; this configuration was measured on this device when the baselines were accepted";
   }
-  if (finding.excuse.of == Excuse::Of::expired) {
+  if (finding.excuse.kind == Excuse::Kind::expired) {
     text += fmt::format("; its waiver expired on {} ({})", finding.excuse.expiry,
                         finding.excuse.reason);
   }
-  for (const judge::Observation& each : finding.again) {
+  for (const judge::Observation& each : finding.retry_observations) {
     text += "; when drawn again: " + text_of(each);
   }
   if (!finding.injected.empty()) {
@@ -183,10 +184,10 @@ std::string headline(const GateResult& result) {
       return fmt::format("FAIL: {}; {}", fmt::join(parts, "; "), tally(result));
     default:
       if (parts.empty()) {
-        parts.push_back(result.nothing_decided().empty()
+        parts.push_back(result.undecided_devices().empty()
                             ? "no check reached a verdict"
                             : fmt::format("no check reached a verdict on {}",
-                                          fmt::join(result.nothing_decided(), ", ")));
+                                          fmt::join(result.undecided_devices(), ", ")));
       }
       return fmt::format("CANNOT JUDGE: {}; {}", fmt::join(parts, "; "), tally(result));
   }

@@ -81,7 +81,7 @@ void draw_numbers(const Session& session, std::size_t index) {
   time_row(record);
   for (const auto& [name, value] : record.counters) {
     const std::uint64_t* const first = counted_first(session, index, name);
-    const bool other = first != nullptr && !judge::is_of_the_api(name) && differ(value, *first);
+    const bool other = first != nullptr && !judge::depends_on_api(name) && differ(value, *first);
     row(name, other ? colours::wrong : plain, grouped(value),
         other ? fmt::format("differs from the first column: {}", grouped(*first)) : "");
   }

@@ -50,15 +50,15 @@ TEST(FitLine, TooFewPointsHaveNoLine) {
     EXPECT_FALSE(line.admitted());
     EXPECT_TRUE(std::isnan(line.slope));
   }
-  CorrelationPair alike = pair_of(30);
-  for (CorrelationPoint& point : alike.points) point.x = 14;
-  EXPECT_FALSE(line_of(alike).admitted());
+  CorrelationPair equal_x = pair_of(30);
+  for (CorrelationPoint& point : equal_x.points) point.x = 14;
+  EXPECT_FALSE(line_of(equal_x).admitted());
 }
 
 // If all configurations with one level of a factor are off the fitted line by far more than the
 // scatter, the level is reported as one finding instead of many outliers. All other configurations
 // are still compared with the line.
-TEST(OffTheLine, ALevelAndOneConfiguration) {
+TEST(LineOutliers, ALevelAndOneConfiguration) {
   CorrelationPair pair = pair_of(60);
   std::vector<Factors> factors;
   for (std::size_t i = 0; i < pair.points.size(); ++i) {
@@ -66,22 +66,22 @@ TEST(OffTheLine, ALevelAndOneConfiguration) {
     if (i % 3 == 1) pair.points[i].y += 0.4;
   }
   pair.points[5].y += 0.3;
-  const auto off = off_the_line(pair.points, factors);
-  ASSERT_EQ(off.size(), 2U);
-  EXPECT_EQ(off[0].level, "data=1");
-  EXPECT_NEAR(off[0].effect, 0.4, 0.01);
-  EXPECT_LT(off[0].error, 0.01);
-  EXPECT_EQ(off[1].level, "");
-  EXPECT_EQ(off[1].members, std::vector<std::size_t>{5});
-  EXPECT_NEAR(off[1].effect, 0.3, 0.03);
+  const auto outliers = line_outliers(pair.points, factors);
+  ASSERT_EQ(outliers.size(), 2U);
+  EXPECT_EQ(outliers[0].level, "data=1");
+  EXPECT_NEAR(outliers[0].effect, 0.4, 0.01);
+  EXPECT_LT(outliers[0].error, 0.01);
+  EXPECT_EQ(outliers[1].level, "");
+  EXPECT_EQ(outliers[1].members, std::vector<std::size_t>{5});
+  EXPECT_NEAR(outliers[1].effect, 0.3, 0.03);
 }
 
-TEST(OffTheLine, AnExactLineFindsOutliers) {
+TEST(LineOutliers, AnExactLineFindsOutliers) {
   CorrelationPair pair = pair_of(40, 1, 0);
   pair.points[7].y += 0.11;
-  const auto off = off_the_line(pair.points, std::vector<Factors>(40));
-  ASSERT_EQ(off.size(), 1U);
-  EXPECT_EQ(off[0].members, std::vector<std::size_t>{7});
+  const auto outliers = line_outliers(pair.points, std::vector<Factors>(40));
+  ASSERT_EQ(outliers.size(), 1U);
+  EXPECT_EQ(outliers[0].members, std::vector<std::size_t>{7});
 }
 
 }  // namespace

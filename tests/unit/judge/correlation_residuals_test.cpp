@@ -10,7 +10,7 @@
 namespace triptych::judge {
 namespace {
 
-using Of = Movement::Of;
+using Scope = Movement::Scope;
 
 // Returns all combinations of the factors a, b and c, which have 2, 3 and 4 levels.
 std::vector<Factors> grid() {
@@ -39,7 +39,7 @@ TEST(Explain, ALevelWhoseConfigurationsMovedDifferently) {
       moved([&](const Factors& f) { return f.at("b") == "1" ? 0.01 + 0.001 * ++i : 0; });
   const auto found = explain(by, grid());
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].of, Of::level);
+  EXPECT_EQ(found[0].scope, Scope::level);
   EXPECT_EQ(found[0].level, "b=1");
   EXPECT_NEAR(found[0].least, 0.011, 1e-12);
   EXPECT_NEAR(found[0].most, 0.018, 1e-12);
@@ -72,7 +72,7 @@ TEST(Explain, OneConfigurationIsNotALevel) {
   by[7] = 0.5;
   const auto found = explain(by, grid());
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found[0].of, Of::configuration);
+  EXPECT_EQ(found[0].scope, Scope::configuration);
 }
 
 TEST(Explain, LevelsWithTheSameConfigurationsCountOnce) {
@@ -86,16 +86,20 @@ TEST(Explain, LevelsWithTheSameConfigurationsCountOnce) {
 
 TEST(Repeatability, BoundsApplyToEachPart) {
   const Repeatability bound = repeatability("opencl:pocl", "raycast", {1e7, 0});
-  EXPECT_EQ(moved_by({0, 3.6e-3}, bound), 0);
-  EXPECT_NEAR(moved_by({0, 3.8e-3}, bound), 3.8e-3, 1e-5);
+  EXPECT_EQ(significant_change({0, 3.6e-3}, bound), 0);
+  EXPECT_NEAR(significant_change({0, 3.8e-3}, bound), 3.8e-3, 1e-5);
   // The first number is the change of the device code, and the second is the change of the driver.
   // A change within the driver's jitter does not count, so only the change of the device code
   // remains.
-  EXPECT_NEAR(moved_by({1e-4, -2e-3}, bound), 1e-4, 1e-6);
-  EXPECT_EQ(moved_by({0.9e-5, 0}, repeatability("vulkan:lavapipe", "tiles", {1e7, 0})), 0);
-  EXPECT_NE(moved_by({0.9e-5, 0}, repeatability("vulkan:lavapipe", "raycast", {1e7, 0})), 0);
-  EXPECT_EQ(moved_by({0, 6.9e-4}, repeatability("vulkan:lavapipe", "raycast", {1e7, 0})), 0);
-  EXPECT_NE(moved_by({0, 7.1e-4}, repeatability("vulkan:lavapipe", "raycast", {1e7, 0})), 0);
+  EXPECT_NEAR(significant_change({1e-4, -2e-3}, bound), 1e-4, 1e-6);
+  EXPECT_EQ(significant_change({0.9e-5, 0}, repeatability("vulkan:lavapipe", "tiles", {1e7, 0})),
+            0);
+  EXPECT_NE(significant_change({0.9e-5, 0}, repeatability("vulkan:lavapipe", "raycast", {1e7, 0})),
+            0);
+  EXPECT_EQ(significant_change({0, 6.9e-4}, repeatability("vulkan:lavapipe", "raycast", {1e7, 0})),
+            0);
+  EXPECT_NE(significant_change({0, 7.1e-4}, repeatability("vulkan:lavapipe", "raycast", {1e7, 0})),
+            0);
 }
 
 TEST(Repeatability, TheBoundOfAResidualIsTheSumOfBoth) {

@@ -168,9 +168,9 @@ std::vector<Finding> JudgeTest::with(const GateResult& result, Cause cause) {
   return found;
 }
 
-Change change_of(const Observation& what, const std::string& name) {
-  const auto found = std::ranges::find(what.changes, name, &Change::name);
-  if (found != what.changes.end()) return *found;
+Change change_of(const Observation& observation, const std::string& name) {
+  const auto found = std::ranges::find(observation.changes, name, &Change::name);
+  if (found != observation.changes.end()) return *found;
   ADD_FAILURE() << name << " did not change";
   return {};
 }

@@ -80,7 +80,7 @@ class JudgeTest : public testing::Test {
 };
 
 // Returns the change of one value. The test fails if the value did not change.
-[[nodiscard]] Change change_of(const Observation& what, const std::string& name);
+[[nodiscard]] Change change_of(const Observation& observation, const std::string& name);
 // Returns whether this cause is among the reasons for lost points.
 [[nodiscard]] bool has(const std::vector<Observation>& because, Cause cause);
 

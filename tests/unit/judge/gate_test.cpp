@@ -250,7 +250,7 @@ TEST(GateResultTest, EveryDeviceNeedsAVerdict) {
   advice.device = "vulkan:b";
   result.findings = {passed, advice};
   EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
-  EXPECT_EQ(result.nothing_decided(), std::vector<std::string>{"vulkan:b"});
+  EXPECT_EQ(result.undecided_devices(), std::vector<std::string>{"vulkan:b"});
   result.findings[1].verdict = Verdict::improved;
   EXPECT_EQ(result.exit_code(), ExitCode::pass);
 }

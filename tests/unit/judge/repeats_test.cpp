@@ -41,9 +41,9 @@ TEST(Repeats, ContainTheWorstVerdictOfEachRepetition) {
   EXPECT_EQ(cases[0].key.configuration, "a");
   EXPECT_EQ(cases[0].verdicts, (std::vector{Verdict::pass, Verdict::regression, Verdict::pass}));
   EXPECT_EQ(cases[0].images, 2U);
-  EXPECT_TRUE(cases[0].flakes());
+  EXPECT_TRUE(cases[0].is_flaky());
   EXPECT_EQ(cases[1].failures(), 3U);
-  EXPECT_FALSE(cases[1].flakes()) << "a case that always fails is not a flake";
+  EXPECT_FALSE(cases[1].is_flaky()) << "a case that always fails is not a flake";
 }
 
 TEST(Repeats, AFlakeInALaterRepetitionIsReported) {
@@ -52,7 +52,7 @@ TEST(Repeats, AFlakeInALaterRepetitionIsReported) {
   add_flakes(repeated_cases(three()), first);
   std::size_t flakes = 0;
   for (const Finding& each : first.front().findings) {
-    if (each.drawn_again != Again::flake) continue;
+    if (each.retry_result != RetryResult::flake) continue;
     ++flakes;
     EXPECT_EQ(each.configuration, "a");
     EXPECT_EQ(each.verdict, Verdict::regression);

@@ -290,12 +290,13 @@ class ExpectationTest : public JudgeTest {
   // rule is not met. If it is met, the cause of the observation is Cause::none.
   Observation judge(const record::SameImage& rule) {
     StressRun run(store_, records_);
-    const auto what = unmet({"a test", rule}, records_.front(), run, [](const record::Record&) {
-      TruthPair pair{core::Image(width, height), core::Image(width, height)};
-      for (float& value : pair.bound.rgba) value = 0.25F;
-      return pair;
-    });
-    return what.value_or(Observation{});
+    const auto observation =
+        violation_of({"a test", rule}, records_.front(), run, [](const record::Record&) {
+          TruthPair pair{core::Image(width, height), core::Image(width, height)};
+          for (float& value : pair.bound.rgba) value = 0.25F;
+          return pair;
+        });
+    return observation.value_or(Observation{});
   }
   // Returns the number of pixels that differ.
   double differing(const record::SameImage& rule) { return judge(rule).number("pixels_differing"); }
@@ -355,8 +356,8 @@ TEST_F(ExpectationTest, OneColourMustMatchExactly) {
   add("data=b", image);
   StressRun run(store_, records_);
   const record::Expectation expected{"a test", record::OneColour{{0.25F, 0.25F, 0.25F, 1.0F}}};
-  EXPECT_FALSE(unmet(expected, records_[0], run, {}));
-  const auto wrong = unmet(expected, records_[1], run, {});
+  EXPECT_FALSE(violation_of(expected, records_[0], run, {}));
+  const auto wrong = violation_of(expected, records_[1], run, {});
   ASSERT_TRUE(wrong);
   EXPECT_EQ(wrong->number("x"), 2);
   EXPECT_EQ(wrong->number("y"), 1);

@@ -24,7 +24,7 @@ TEST_F(GateTest, AWaiverExcusesUntilItsExpiry) {
   const GateResult expired = gate("b");
   EXPECT_EQ(expired.exit_code(), ExitCode::regression);
   const Excuse excuse = with(expired, Verdict::regression).at(0).excuse;
-  EXPECT_EQ(excuse.of, Excuse::Of::expired);
+  EXPECT_EQ(excuse.kind, Excuse::Kind::expired);
   EXPECT_EQ(excuse.expiry, "2026-03-01");
 }
 

@@ -7,8 +7,8 @@
 namespace triptych::judge {
 namespace {
 
-std::optional<WorkChange> change(const record::Counts& now, const record::Counts& then) {
-  return work_change(now, then);
+std::optional<WorkChange> change(const record::Counts& now, const record::Counts& before) {
+  return work_change(now, before);
 }
 
 TEST(Work, UsesTheFirstUnitThatBothHave) {

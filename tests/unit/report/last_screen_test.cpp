@@ -80,7 +80,7 @@ TEST(LastScreen, ListsWaivedFindings) {
   result.findings.back().numbers["ratio"] = 0.5;
   add(result, Check::image, waived, "gl:x", "step=2", over_bound(3));
   result.findings.back().excuse = {
-      .of = judge::Excuse::Of::waived, .reason = "known", .expiry = "2027-01-01"};
+      .kind = judge::Excuse::Kind::waived, .reason = "known", .expiry = "2027-01-01"};
   result.findings.back().numbers["ratio"] = 4e5;
   const std::string text = last_screen(std::vector{result}, 3, {});
   EXPECT_THAT(text, HasSubstr("1 within their error bounds; 1 waived; error / bound ≤ 0.5\n"));
@@ -93,7 +93,7 @@ TEST(LastScreen, ListsTheCircumstancesOfAPass) {
   EXPECT_THAT(last_screen(std::vector{result}, 3, {}), Not(HasSubstr("  ! ")));
   result.injected = {{"slowdown:20", 4}};
   result.measured_by = "build a; judged by build b";
-  result.began = "2026-02-01";
+  result.old_run_date = "2026-02-01";
   result.unusable = {{"Vulkan", "no loader", {}}};
   const std::string text = last_screen(std::vector{result}, 3, {}, {.width = 120});
   EXPECT_THAT(text, HasSubstr("PASS (0)"));

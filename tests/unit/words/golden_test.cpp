@@ -179,15 +179,15 @@ TEST(Sentences, OfExcusesAndRepetitions) {
   judge::Finding finding =
       finding_of(judge::Check::image, judge::Verdict::waived, "gl:x", "step=1", over_bound(16));
   std::string text;
-  for_each_value<judge::Excuse::Of>([&](judge::Excuse::Of of) {
-    finding.excuse = {.of = of, .reason = "REASON", .expiry = "2027-01-01"};
-    text += fmt::format("{}: {}\n", judge::name_of(of), words::found(finding));
+  for_each_value<judge::Excuse::Kind>([&](judge::Excuse::Kind kind) {
+    finding.excuse = {.kind = kind, .reason = "REASON", .expiry = "2027-01-01"};
+    text += fmt::format("{}: {}\n", judge::name_of(kind), words::found(finding));
   });
   finding.excuse = {};
-  finding.again = {crashed(11)};
-  for_each_value<judge::Again>([&](judge::Again again) {
-    finding.drawn_again = again;
-    text += fmt::format("{}: {}\n", judge::name_of(again), words::found(finding));
+  finding.retry_observations = {crashed(11)};
+  for_each_value<judge::RetryResult>([&](judge::RetryResult result) {
+    finding.retry_result = result;
+    text += fmt::format("{}: {}\n", judge::name_of(result), words::found(finding));
   });
   expect_golden("excuses.txt", text);
 }

@@ -115,15 +115,15 @@ class RandomWords : public GateTest {
     const auto say = [words](const Finding&) { return words ? (*words)() : "words"; };
     const GateResult first = gate(name);
     std::string text = decided(first);
-    const Redrawn again = tell_flakes(first, gate(name + "-again"), failing(first));
+    const SecondAttempt again = mark_flakes(first, gate(name + "-again"), failing_cases(first));
     text += decided(again.result);
     for (const auto& [device, configuration] : again.flakes) {
       text += fmt::format("flake {} {}\n", device, configuration);
     }
     GateRequest request = request_;
-    request.known = as_expected(std::vector{first}, say);
-    for (const Waiver& each : *request.known) {
-      text += fmt::format("expected {} {}\n", each.device, name_of(each.known));
+    request.expected_outcomes = expected_outcomes_of(std::vector{first}, say);
+    for (const Waiver& each : *request.expected_outcomes) {
+      text += fmt::format("expected {} {}\n", each.device, name_of(each.outcome));
     }
     text += decided(gate(name, request));
     text += failures(name);

@@ -18,7 +18,7 @@ const std::string lavapipe = "vulkan:lavapipe";
 // Returns the findings of two devices, each with two techniques of six configurations. Only raycast
 // on lavapipe has the finding `what`; all other configurations pass.
 judge::GateResult result_with(Check check, judge::Verdict verdict, const judge::Observation& what,
-                              const judge::Advised& advice = {}) {
+                              const judge::AdviceWithCommand& advice = {}) {
   judge::GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (const char* technique : {"raycast", "slices"}) {
     for (int step = 1; step <= 6; ++step) {
@@ -98,7 +98,7 @@ TEST(Screens, Waived) {
   judge::GateResult result = result_with(Check::image, waived, over_bound(11139));
   for (judge::Finding& each : result.findings) {
     if (each.verdict != waived) continue;
-    each.excuse = {.of = judge::Excuse::Of::waived,
+    each.excuse = {.kind = judge::Excuse::Kind::waived,
                    .reason = "driver bug, reported upstream",
                    .expiry = "2027-01-01"};
   }

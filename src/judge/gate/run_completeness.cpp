@@ -11,9 +11,9 @@
 namespace triptych::judge {
 namespace {
 
-bool applies(const Absent& entry, const record::Run& run, const std::string& today) {
-  const bool ended = !entry.expiry.empty() && today >= entry.expiry;
-  return !ended && std::ranges::any_of(run.begun, [&](const record::Beginning& begun) {
+bool applies(const AbsentDevice& entry, const record::Run& run, const std::string& today) {
+  const bool expired = !entry.expiry.empty() && today >= entry.expiry;
+  return !expired && std::ranges::any_of(run.begun, [&](const record::Beginning& begun) {
     return core::glob_matches(entry.host, begun.host);
   });
 }
@@ -22,13 +22,13 @@ bool applies(const Absent& entry, const record::Run& run, const std::string& tod
 // absent from this machine.
 bool is_excused(const RunView& view, const std::string& device) {
   if (core::any_glob_matches(view.request.without_devices, device)) return true;
-  return std::ranges::any_of(view.baselines.absent(), [&](const Absent& entry) {
+  return std::ranges::any_of(view.baselines.absent_devices(), [&](const AbsentDevice& entry) {
     return core::glob_matches(entry.device, device) && applies(entry, view.run, view.today());
   });
 }
 
 // Returns whether one of the run's commands would have measured the device if it had been present.
-bool is_asked_for(const RunView& view, const std::string& device) {
+bool is_requested(const RunView& view, const std::string& device) {
   const bool judged =
       view.request.devices.empty() || core::any_glob_matches(view.request.devices, device);
   return judged && std::ranges::any_of(view.run.begun, [&](const record::Beginning& begun) {
@@ -36,13 +36,13 @@ bool is_asked_for(const RunView& view, const std::string& device) {
          });
 }
 
-Advised without(const std::string& device) {
+AdviceWithCommand repair_advice(const std::string& device) {
   return {Advice::repair_driver, "--without-device " + core::shell_quoted(device)};
 }
 
 // Returns whether every requested device was named in full and found. In that case, a failed device
 // enumeration cannot have hidden a requested device.
-bool found_all_that_was_asked(const record::Beginning& begun) {
+bool found_all_requested(const record::Beginning& begun) {
   return !begun.asked.empty() && std::ranges::all_of(begun.asked, [&](const std::string& id) {
     return std::ranges::find(begun.found, id) != begun.found.end();
   });
@@ -51,7 +51,7 @@ bool found_all_that_was_asked(const record::Beginning& begun) {
 // Reports each device enumeration that crashed or hung, because it may have missed devices.
 void report_failed_listings(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Beginning& begun : view.run.begun) {
-    if (found_all_that_was_asked(begun)) continue;
+    if (found_all_requested(begun)) continue;
     for (const record::Unusable& each : begun.unusable) {
       const std::string api = each.api();
       // If the device is required, report_required_devices() reports why it is missing.
@@ -62,7 +62,7 @@ void report_failed_listings(const RunView& view, std::vector<Finding>& findings)
       findings.push_back(finding_about(
           view, *view.checks.begin(), Verdict::cannot_judge,
           {.cause = Cause::listing_failed, .facts = {{"what", each.what}}, .reason = *each.ended},
-          without(api)));
+          repair_advice(api)));
     }
   }
 }
@@ -90,52 +90,52 @@ bool is_expected(const RunView& view, const std::string& id,
 
 // Returns the ids of accepted devices that were not found, although another device that was
 // accepted on the same machine was found. Maps each id to the id of that other device.
-std::map<std::string, std::string> gone_devices(const RunView& view) {
+std::map<std::string, std::string> missing_devices(const RunView& view) {
   const Manifest& manifest = view.baselines.manifest();
   const std::map<std::string, std::string> ids = ids_of_drivers(manifest);
-  std::set<std::string> here;
+  std::set<std::string> present_drivers;
   for (const auto& entry : view.store.devices(view.run.id)) {
-    here.insert(entry.device.statistics_key());
+    present_drivers.insert(entry.device.statistics_key());
   }
   const std::vector<std::string> found = record::found_in(view.run.begun);
-  std::map<std::string, std::string> gone;
+  std::map<std::string, std::string> missing;
   for (const std::set<std::string>& machine : manifest.machines) {
     const auto known = std::ranges::find_if(
-        machine, [&](const std::string& driver) { return here.contains(driver); });
+        machine, [&](const std::string& driver) { return present_drivers.contains(driver); });
     if (known == machine.end()) continue;
     for (const std::string& driver : machine) {
       const auto id = ids.find(driver);
       if (id == ids.end() || std::ranges::find(found, id->second) != found.end()) continue;
       if (!is_expected(view, id->second, found)) continue;
       const auto sibling = ids.find(*known);
-      gone.emplace(id->second, sibling == ids.end() ? *known : sibling->second);
+      missing.emplace(id->second, sibling == ids.end() ? *known : sibling->second);
     }
   }
-  return gone;
+  return missing;
 }
 
-void report_gone_devices(const RunView& view, std::vector<Finding>& findings) {
+void report_missing_devices(const RunView& view, std::vector<Finding>& findings) {
   if (!view.baselines.present()) return;
-  for (const auto& [id, sibling] : gone_devices(view)) {
-    if (!is_asked_for(view, id) || is_excused(view, id)) continue;
+  for (const auto& [id, sibling] : missing_devices(view)) {
+    if (!is_requested(view, id) || is_excused(view, id)) continue;
     record::Device device;
     device.id = id;
     findings.push_back(finding_about(
         view, device, *view.checks.begin(), Verdict::cannot_judge,
-        {.cause = Cause::device_missing, .facts = {{"sibling", sibling}}}, without(id)));
+        {.cause = Cause::device_missing, .facts = {{"sibling", sibling}}}, repair_advice(id)));
   }
 }
 
 // Reports devices that the run measured but does not describe. Such a device matches no stored key,
 // so all other findings about it would only be advisory.
-void report_undescribed(const RunView& view, std::vector<Finding>& findings) {
+void report_undescribed_devices(const RunView& view, std::vector<Finding>& findings) {
   std::set<std::string> described;
   for (const auto& entry : view.store.devices(view.run.id)) described.insert(entry.device.id);
   std::set<std::string> measured;
   for (const record::Record* record : view.measured) measured.insert(record->device);
-  std::vector<std::string> without;
-  std::ranges::set_difference(measured, described, std::back_inserter(without));
-  for (const std::string& id : without) {
+  std::vector<std::string> undescribed;
+  std::ranges::set_difference(measured, described, std::back_inserter(undescribed));
+  for (const std::string& id : undescribed) {
     findings.push_back(finding_about(
         view, view.devices.at(id), *view.checks.begin(), Verdict::cannot_judge,
         {.cause = Cause::no_description, .facts = {{"run", view.run.id}}}, {Advice::run_again}));
@@ -172,10 +172,10 @@ const record::Unusable* unusable_device(const RunView& view, const std::string& 
 
 void report_required_devices(const RunView& view, std::vector<Finding>& findings) {
   for (const std::string& glob : view.request.required_devices) {
-    const bool there = std::ranges::any_of(view.measured, [&](const record::Record* record) {
+    const bool was_measured = std::ranges::any_of(view.measured, [&](const record::Record* record) {
       return core::glob_matches(glob, record->device);
     });
-    if (there) continue;
+    if (was_measured) continue;
     Observation observation{.cause = Cause::no_required_device, .facts = {{"glob", glob}}};
     if (const record::Unusable* found = unusable_device(view, glob)) {
       observation.detail = found->reason;
@@ -186,13 +186,13 @@ void report_required_devices(const RunView& view, std::vector<Finding>& findings
   }
 }
 
-void report_as_begun(const RunView& view, std::vector<Finding>& findings) {
+void report_incomplete_run(const RunView& view, std::vector<Finding>& findings) {
   report_lost_checks(view, findings);
   if (view.run.begun.empty()) return;
-  report_undescribed(view, findings);
+  report_undescribed_devices(view, findings);
   if (!view.request.decides_each_device) return;
   report_failed_listings(view, findings);
-  report_gone_devices(view, findings);
+  report_missing_devices(view, findings);
 }
 
 }  // namespace triptych::judge
