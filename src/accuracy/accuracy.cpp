@@ -24,7 +24,7 @@ constexpr double tail = 0.025;  // probability of each tail outside a 95 % confi
 
 // Returns the factors (settings of a configuration) whose values differ among the cases, except for
 // the factor `step`.
-std::set<std::string> telling_factors(std::span<const AccuracyCase> cases) {
+std::set<std::string> varying_factors(std::span<const AccuracyCase> cases) {
   std::set<std::string> names;
   for (const AccuracyCase& each : cases) {
     for (const auto& [name, value] : each.factors) {
@@ -36,9 +36,9 @@ std::set<std::string> telling_factors(std::span<const AccuracyCase> cases) {
   return names;
 }
 
-std::string family_name(const AccuracyCase& each, const std::set<std::string>& telling) {
+std::string family_name(const AccuracyCase& each, const std::set<std::string>& varying) {
   std::string name;
-  for (const std::string& factor : telling) {
+  for (const std::string& factor : varying) {
     const auto value = each.factors.find(factor);
     if (value == each.factors.end()) continue;
     name += fmt::format("{}{}={}", name.empty() ? "" : ", ", factor, value->second);
@@ -86,8 +86,8 @@ std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
   std::vector<std::size_t> order(cases.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) {
-    constexpr double never = std::numeric_limits<double>::infinity();
-    return std::pair(cases[i].rmse, cases[i].time_ns.value_or(never));
+    constexpr double untimed = std::numeric_limits<double>::infinity();
+    return std::pair(cases[i].rmse, cases[i].time_ns.value_or(untimed));
   });
   return order;
 }
@@ -97,13 +97,13 @@ std::vector<std::size_t> by_accuracy(std::span<const AccuracyCase> cases) {
 // of the points has no cost or an error of 0.
 std::optional<double> cost_between(const AccuracyCase& a, const AccuracyCase& b,
                                    const CostOf& cost_of, double error) {
-  const auto of_a = cost_of(a);
-  const auto of_b = cost_of(b);
-  if (!of_a || !of_b) return std::nullopt;
+  const auto cost_a = cost_of(a);
+  const auto cost_b = cost_of(b);
+  if (!cost_a || !cost_b) return std::nullopt;
   const bool between = std::min(a.rmse, b.rmse) < error && error < std::max(a.rmse, b.rmse);
   if (!between || !(std::min(a.rmse, b.rmse) > 0)) return std::nullopt;
   const double share = std::log(error / a.rmse) / std::log(b.rmse / a.rmse);
-  return *of_a * std::pow(*of_b / *of_a, share);
+  return *cost_a * std::pow(*cost_b / *cost_a, share);
 }
 
 std::optional<double> time_of(const AccuracyCase& each) {
@@ -172,10 +172,10 @@ std::vector<Dominated> dominated(std::span<const AccuracyCase> cases,
 
 std::vector<AccuracyFamily> accuracy_families(std::span<const AccuracyCase> cases) {
   if (cases.empty()) return {};
-  const std::set<std::string> telling = telling_factors(cases);
+  const std::set<std::string> varying = varying_factors(cases);
   std::map<std::string, AccuracyFamily> families;
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const std::string name = family_name(cases[i], telling);
+    const std::string name = family_name(cases[i], varying);
     families[name].name = name;
     families[name].members.push_back(i);
   }
@@ -201,8 +201,8 @@ std::optional<double> cost_to_error(std::span<const AccuracyCase> cases,
   }
   for (const AccuracyFamily& family : families) {
     for (std::size_t i = 0; i + 1 < family.members.size(); ++i) {
-      const AccuracyCase& one = cases[family.members[i]];
-      consider(cost_between(one, cases[family.members[i + 1]], cost_of, error));
+      const AccuracyCase& shorter = cases[family.members[i]];
+      consider(cost_between(shorter, cases[family.members[i + 1]], cost_of, error));
     }
   }
   return least;
@@ -217,30 +217,30 @@ std::size_t most_accurate(std::span<const AccuracyCase> cases) {
   return by_accuracy(cases).front();
 }
 
-std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases) {
-  std::map<std::string, std::vector<Switched>> by_factor;
+std::vector<FactorSwitch> single_factor_switches(std::span<const AccuracyCase> cases) {
+  std::map<std::string, std::vector<FactorSwitch>> by_factor;
   for (const std::size_t from : by_accuracy(cases)) {
     for (std::size_t to = 0; to < cases.size(); ++to) {
       const auto factor = only_difference(cases[from].factors, cases[to].factors);
       if (!factor) continue;
-      std::vector<Switched>& known = by_factor[*factor];
+      std::vector<FactorSwitch>& known = by_factor[*factor];
       if (known.empty() || known.front().from == from) known.push_back({*factor, from, to});
     }
   }
-  std::vector<Switched> result;
+  std::vector<FactorSwitch> result;
   for (const auto& [factor, switched] : by_factor) {
     result.insert(result.end(), switched.begin(), switched.end());
   }
   return result;
 }
 
-std::optional<Switched> switched_between(std::span<const AccuracyCase> cases,
-                                         std::span<const AccuracyCase> others,
-                                         std::string_view factor) {
+std::optional<FactorSwitch> factor_switch_between(std::span<const AccuracyCase> cases,
+                                                  std::span<const AccuracyCase> others,
+                                                  std::string_view factor) {
   for (const std::size_t from : by_accuracy(cases)) {
     for (std::size_t to = 0; to < others.size(); ++to) {
       const auto only = only_difference(cases[from].factors, others[to].factors);
-      if (only && *only == factor) return Switched{*only, from, to};
+      if (only && *only == factor) return FactorSwitch{*only, from, to};
     }
   }
   return std::nullopt;

@@ -110,7 +110,7 @@ struct AccuracyFamily {
 [[nodiscard]] std::size_t most_accurate(std::span<const AccuracyCase> cases);
 
 // A pair of cases that differ in one factor only.
-struct Switched {
+struct FactorSwitch {
   std::string factor;
   std::size_t from = 0;
   std::size_t to = 0;
@@ -118,13 +118,13 @@ struct Switched {
 // For each factor, finds the most accurate case that has a counterpart, and all its counterparts. A
 // counterpart is a case that differs only in this factor. The most accurate case may be a different
 // one for every factor, because plans do not contain all combinations.
-[[nodiscard]] std::vector<Switched> switched_alone(std::span<const AccuracyCase> cases);
-// Like switched_alone(), but for a single factor that changes the image, so that `cases` and
-// `others` have different limit images. Returns the most accurate of `cases` that has a counterpart
-// in `others`, and this counterpart, or nullopt if there is none.
-[[nodiscard]] std::optional<Switched> switched_between(std::span<const AccuracyCase> cases,
-                                                       std::span<const AccuracyCase> others,
-                                                       std::string_view factor);
+[[nodiscard]] std::vector<FactorSwitch> single_factor_switches(std::span<const AccuracyCase> cases);
+// Like single_factor_switches(), but for a single factor that changes the image, so that `cases`
+// and `others` have different limit images. Returns the most accurate of `cases` that has a
+// counterpart in `others`, and this counterpart, or nullopt if there is none.
+[[nodiscard]] std::optional<FactorSwitch> factor_switch_between(
+    std::span<const AccuracyCase> cases, std::span<const AccuracyCase> others,
+    std::string_view factor);
 
 // The errors for which the cost is reported: one 8-bit step, about a quarter of that, and 1e-4.
 inline constexpr double accuracy_goals[]{1.0 / 255, 1.0 / 1024, 1e-4};

@@ -14,7 +14,7 @@ namespace {
 
 // Returns the factor list `scene` ("camera=…,data=…,step=…") without the step, and without the
 // levels that `other` does not contain.
-std::string in_common(std::string_view scene, std::string_view other) {
+std::string common_levels(std::string_view scene, std::string_view other) {
   const auto known = record::parse_factor_list(other);
   auto kept = record::parse_factor_list(scene);
   std::erase_if(kept, [&](const auto& level) {
@@ -34,9 +34,9 @@ double root_mean_square(const std::vector<float>& values) {
 // Returns the total size of all buffers and images, in bytes. `memory` also contains the bytes that
 // a frame uploads, under the key "moved" (measure/contract/memory_ledger.hpp); they are not
 // included.
-std::uint64_t bytes_held(const record::Counts& memory) {
+std::uint64_t allocated_bytes(const record::Counts& memory) {
   std::uint64_t bytes = 0;
-  for (const auto& [kind, of_kind] : memory) bytes += kind == "moved" ? 0 : of_kind;
+  for (const auto& [kind, bytes_of_kind] : memory) bytes += kind == "moved" ? 0 : bytes_of_kind;
   return bytes;
 }
 
@@ -44,7 +44,7 @@ std::uint64_t bytes_held(const record::Counts& memory) {
 // (measure/system/energy_meters.hpp).
 double joules_of(const record::Counts& microjoules) {
   double sum = 0;
-  for (const auto& [meter, told] : microjoules) sum += static_cast<double>(told);
+  for (const auto& [meter, energy] : microjoules) sum += static_cast<double>(energy);
   return sum * 1e-6;
 }
 
@@ -59,15 +59,16 @@ core::Image in_eight_bits(core::Image image) {
 
 std::optional<LimitErrors> limit_errors(const core::Image& image, const core::Image& truth,
                                         const core::Image& limit) {
-  constexpr double any = std::numeric_limits<double>::infinity();
-  const ImageComparison whole = compare(image, limit, any);
+  constexpr double unbounded = std::numeric_limits<double>::infinity();
+  const ImageComparison comparison = compare(image, limit, unbounded);
   const double arithmetic = accuracy::root_mean_square(image, truth);
   const double lattice = accuracy::root_mean_square(truth, limit);
-  if (whole.size_mismatch || whole.non_finite > 0 || whole.pixels == 0 ||
+  if (comparison.size_mismatch || comparison.non_finite > 0 || comparison.pixels == 0 ||
       !std::isfinite(arithmetic) || !std::isfinite(lattice)) {
     return std::nullopt;
   }
-  return LimitErrors{whole.rmse, whole.largest.error, whole.error_99, lattice, arithmetic};
+  return LimitErrors{comparison.rmse, comparison.largest.error, comparison.error_99, lattice,
+                     arithmetic};
 }
 
 AccuracyCase accuracy_case(const record::Record& record, const LimitErrors& error,
@@ -88,7 +89,7 @@ AccuracyCase accuracy_case(const record::Record& record, const LimitErrors& erro
                       .arithmetic = error.arithmetic};
   const auto samples = record.counters.find("samples");
   if (samples != record.counters.end()) result.samples = samples->second;
-  if (!record.memory.empty()) result.memory = bytes_held(record.memory);
+  if (!record.memory.empty()) result.memory = allocated_bytes(record.memory);
   if (!record.energy.empty()) result.joules = joules_of(record.energy);
   return result;
 }
@@ -97,27 +98,27 @@ AccuracyScene accuracy_scene(const record::Record& record, const LimitImage& lim
   AccuracyScene scene;
   scene.device = record.device;
   scene.limit = limit.key;
-  scene.scene = in_common(record.scene, record.scene);
+  scene.scene = common_levels(record.scene, record.scene);
   const auto data = record.factors.find("data");
   if (data != record.factors.end()) scene.data = data->second;
   scene.uncertainty = root_mean_square(limit.uncertainty.rgba);
   if (limit.closed_form) {
     scene.representation = accuracy::root_mean_square(limit.image, *limit.closed_form);
   }
-  scene.eight_bits = accuracy::root_mean_square(in_eight_bits(limit.image), limit.image);
-  scene.nothing = root_mean_square(limit.image.rgba);
+  scene.eight_bit_error = accuracy::root_mean_square(in_eight_bits(limit.image), limit.image);
+  scene.empty_image_error = root_mean_square(limit.image.rgba);
   return scene;
 }
 
-void narrow(AccuracyScene& scene, const record::Record& record) {
-  scene.scene = in_common(scene.scene, record.scene);
+void keep_common_levels(AccuracyScene& scene, const record::Record& record) {
+  scene.scene = common_levels(scene.scene, record.scene);
 }
 
 void evaluate(AccuracyScene& scene) {
   scene.families = accuracy_families(scene.cases);
   scene.front = pareto_front(scene.cases);
   scene.dominated = dominated(scene.cases, scene.front);
-  scene.area = front_area(scene.cases, scene.front, scene.nothing);
+  scene.area = front_area(scene.cases, scene.front, scene.empty_image_error);
 }
 
 }  // namespace triptych::accuracy

@@ -48,8 +48,8 @@ struct AccuracyScene {
   // voxel grid and the transfer-function table cannot represent exactly.
   std::optional<double> representation;
   // The root mean square error that the limit image would have with 8 bits per channel.
-  double eight_bits = 0;
-  double nothing = 0;  // root mean square error of an empty image
+  double eight_bit_error = 0;
+  double empty_image_error = 0;  // root mean square error of an empty image
   std::vector<AccuracyCase> cases;
   std::vector<AccuracyFamily> families;
   std::vector<std::size_t> front;
@@ -65,14 +65,14 @@ struct AccuracyScene {
 // AccuracyScene::scene: those that `record` does not have. evaluate() computes the results after
 // all cases have been added.
 [[nodiscard]] AccuracyScene accuracy_scene(const record::Record& record, const LimitImage& limit);
-void narrow(AccuracyScene& scene, const record::Record& record);
+void keep_common_levels(AccuracyScene& scene, const record::Record& record);
 void evaluate(AccuracyScene& scene);
 
-// Returns {"device", "scene", "data", "uncertainty", "representation", "eight_bits", "nothing",
-// "hypervolume", "configurations": [{"configuration", "time_ns", "samples", "instructions",
-// "fetched_bytes", "memory_bytes", "joules", "rmse", "largest", "error_99", "lattice",
-// "arithmetic", "front"}], "families": [{"name", "order", "half_width", "configurations"}]}. A
-// value is null if it was not timed, counted or determined.
+// Returns {"device", "scene", "data", "uncertainty", "representation", "eight_bits",
+// "nothing", "hypervolume", "configurations": [{"configuration", "time_ns", "samples",
+// "instructions", "fetched_bytes", "memory_bytes", "joules", "rmse", "largest", "error_99",
+// "lattice", "arithmetic", "front"}], "families": [{"name", "order", "half_width",
+// "configurations"}]}. A value is null if it was not timed, counted or determined.
 [[nodiscard]] nlohmann::json to_json(const AccuracyScene& scene);
 
 }  // namespace triptych::accuracy

@@ -9,25 +9,25 @@ namespace triptych::accuracy {
 
 StepError longest_step(double error, const StepLimits& limits, const ErrorOfStep& error_of) {
   std::map<double, double> known;
-  const auto holds = [&](double step) {
-    const auto [entry, fresh] = known.try_emplace(step, 0.0);
-    if (fresh) entry->second = error_of(step);
+  const auto meets_error = [&](double step) {
+    const auto [entry, is_new] = known.try_emplace(step, 0.0);
+    if (is_new) entry->second = error_of(step);
     return entry->second <= error;
   };
-  const auto holds_from = [&](double step) {
-    return holds(step) && (step / 2 < limits.shortest || holds(step / 2));
+  const auto meets_error_down_from = [&](double step) {
+    return meets_error(step) && (step / 2 < limits.shortest || meets_error(step / 2));
   };
   // The search starts at a step of a few voxels, which is a typical result, and then halves or
   // doubles the step.
   double step = std::clamp(4.0, limits.shortest, limits.longest);
-  while (!holds_from(step)) {
+  while (!meets_error_down_from(step)) {
     if (step / 2 < limits.shortest) return {.step = step, .error = known.at(step)};
     step /= 2;
   }
-  while (2 * step <= limits.longest && holds(2 * step)) step *= 2;
+  while (2 * step <= limits.longest && meets_error(2 * step)) step *= 2;
   for (const double quarters : {0.75, 0.5, 0.25}) {
     const double longer = step * std::exp2(quarters);
-    if (longer <= limits.longest && holds(longer)) {
+    if (longer <= limits.longest && meets_error(longer)) {
       step = longer;
       break;
     }
@@ -46,9 +46,10 @@ StepError shortened_step(double step, double error, const StepLimits& limits,
   for (;;) {
     const double found = error_of(step);
     if (found <= error || !(step > limits.shortest)) return {.step = step, .error = found};
-    const double wanted = margin * std::sqrt(error / found);
-    const double factor =
-        wanted >= most_shortening ? std::min(wanted, least_shortening) : most_shortening;
+    const double wanted_factor = margin * std::sqrt(error / found);
+    const double factor = wanted_factor >= most_shortening
+                              ? std::min(wanted_factor, least_shortening)
+                              : most_shortening;
     step = std::max(step * factor, limits.shortest);
   }
 }

@@ -20,7 +20,7 @@ namespace triptych::accuracy {
 inline constexpr double reference_time_ns = 1e9;
 // The smallest error that is taken into account. Smaller errors cannot be distinguished from the
 // rounding of a float image, and an error of 0 would make the area infinite.
-inline constexpr double least_told_error = 0x1.0p-24;
+inline constexpr double least_reported_error = 0x1.0p-24;
 
 // Returns the area between the front and the reference point, in ln time and ln error:
 //   ∫ max(0, ln(reference time / t(e))) d ln e

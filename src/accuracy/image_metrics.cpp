@@ -25,12 +25,12 @@ std::span<const float, 4> channels(const core::Image& image, std::size_t pixel) 
   return std::span<const float, 4>(image.rgba.data() + 4 * pixel, 4);
 }
 
-bool finite(std::span<const float, 4> pixel) {
+bool is_finite(std::span<const float, 4> pixel) {
   return std::ranges::all_of(pixel, [](float v) { return std::isfinite(v); });
 }
 
 // Extends the rectangle so that it contains the pixel.
-void include(std::size_t pixel, int width, ImageComparison::Rectangle& rectangle) {
+void extend_rectangle(std::size_t pixel, int width, ImageComparison::Rectangle& rectangle) {
   const int x = static_cast<int>(pixel % static_cast<std::size_t>(width));
   const int y = static_cast<int>(pixel / static_cast<std::size_t>(width));
   if (rectangle.left < 0) rectangle = {x, y, x, y};
@@ -59,35 +59,36 @@ ImageComparison compare_with(const core::Image& image, const core::Image& truth,
   errors.reserve(result.pixels);
   double squares = 0;
   for (std::size_t i = 0; i < result.pixels; ++i) {
-    const auto seen = channels(image, i);
+    const auto drawn = channels(image, i);
     const auto expected = channels(truth, i);
-    if (!finite(seen) || !finite(expected)) {
+    if (!is_finite(drawn) || !is_finite(expected)) {
       ++result.non_finite;
-      if (core::is_nan_pixel(seen)) ++result.not_drawn;
-      include(i, image.width, result.wrong);
+      if (core::is_nan_pixel(drawn)) ++result.not_drawn;
+      extend_rectangle(i, image.width, result.wrong);
       continue;
     }
-    ImageComparison::Place place{static_cast<int>(i % static_cast<std::size_t>(image.width)),
-                                 static_cast<int>(i / static_cast<std::size_t>(image.width))};
-    bool over = false;
+    ImageComparison::PixelError pixel_error{
+        static_cast<int>(i % static_cast<std::size_t>(image.width)),
+        static_cast<int>(i / static_cast<std::size_t>(image.width))};
+    bool is_over_bound = false;
     for (std::size_t c = 0; c < 4; ++c) {
-      const double error = difference(seen[c], expected[c]);
+      const double error = difference(drawn[c], expected[c]);
       const double bound = bound_at(i, c);
       squares += error * error;
-      over = over || !(error <= bound);
-      if (c == 0 || error > place.error) {
-        place.error = error;
-        place.bound = bound;
-        place.ratio = ratio_of(error, bound);
+      is_over_bound = is_over_bound || !(error <= bound);
+      if (c == 0 || error > pixel_error.error) {
+        pixel_error.error = error;
+        pixel_error.bound = bound;
+        pixel_error.ratio = ratio_of(error, bound);
       }
     }
-    if (over) {
+    if (is_over_bound) {
       ++result.over_bound;
-      include(i, image.width, result.wrong);
+      extend_rectangle(i, image.width, result.wrong);
     }
-    if (errors.empty() || place.ratio > result.worst.ratio) result.worst = place;
-    if (errors.empty() || place.error > result.largest.error) result.largest = place;
-    errors.push_back(place.error);
+    if (errors.empty() || pixel_error.ratio > result.worst.ratio) result.worst = pixel_error;
+    if (errors.empty() || pixel_error.error > result.largest.error) result.largest = pixel_error;
+    errors.push_back(pixel_error.error);
   }
   if (errors.empty()) return result;
   result.rmse = std::sqrt(squares / (4.0 * static_cast<double>(errors.size())));
@@ -111,7 +112,7 @@ void compare_surfaces(const core::Image& image, const core::Image& truth, const 
     const bool wrong_depth =
         id_is_certain(bound, i) && !same_depth(image.depth[i], truth.depth[i], bound.depth[i]);
     if (!wrong_id && !wrong_depth) continue;
-    include(i, image.width, result.wrong);
+    extend_rectangle(i, image.width, result.wrong);
     if (result.first_wrong.x < 0) {
       const auto width = static_cast<std::size_t>(image.width);
       result.first_wrong = {.x = static_cast<int>(i % width),

@@ -13,7 +13,7 @@ namespace triptych::accuracy {
 // contain a value that is not finite, in either image, are counted separately and excluded from
 // everything else.
 struct ImageComparison {
-  struct Place {
+  struct PixelError {
     int x = -1;  // -1 if no pixel could be compared
     int y = -1;
     double error = 0;
@@ -22,7 +22,7 @@ struct ImageComparison {
   };
 
   // A pixel that shows a wrong particle, or the correct particle at a wrong depth.
-  struct Surface {
+  struct SurfaceError {
     int x = -1;  // -1 if there is no such pixel
     int y = -1;
     std::uint32_t id = core::Image::no_particle;
@@ -48,14 +48,14 @@ struct ImageComparison {
   // Triptych sets all outputs to NaN before each frame.
   std::size_t not_drawn = 0;
   std::size_t over_bound = 0;
-  Place worst;          // pixel with the largest ratio
-  Place largest;        // pixel with the largest error
+  PixelError worst;     // pixel with the largest ratio
+  PixelError largest;   // pixel with the largest error
   double rmse = 0;      // root mean square error over all channels of the compared pixels
   double error_99 = 0;  // 99th percentile of the pixels' errors
   // Results for images of particles; 0 for other images.
   std::size_t wrong_ids = 0;
   std::size_t wrong_depths = 0;
-  Surface first_wrong;
+  SurfaceError first_wrong;
   Rectangle wrong;
 
   [[nodiscard]] bool within_bound() const {

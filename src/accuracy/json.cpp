@@ -55,8 +55,8 @@ Json to_json(const AccuracyScene& scene) {
           {"data", scene.data},
           {"uncertainty", scene.uncertainty},
           {"representation", optional_number(scene.representation)},
-          {"eight_bits", scene.eight_bits},
-          {"nothing", scene.nothing},
+          {"eight_bits", scene.eight_bit_error},
+          {"nothing", scene.empty_image_error},
           {"hypervolume", scene.area ? Json(scene.area->area) : Json(nullptr)},
           {"configurations", std::move(cases)},
           {"families", std::move(families)}};

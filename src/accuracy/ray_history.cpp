@@ -9,43 +9,44 @@ namespace {
 // Recorded numbers are floats. Numbers that the device computed in single precision are therefore
 // exact. Numbers in double precision have been rounded, with a relative error of at most half this
 // constant.
-constexpr double recorded = 0x1.0p-23;
+constexpr double recording_precision = 0x1.0p-23;
 
 // If less than this share of the light is left, nothing behind is visible. A device may then leave
 // out all further samples, or take samples that the reference renderer does not take.
 constexpr double invisible = 0x1.0p-60;
 
-bool is_within(double number, const Allowed& allowed) {
-  const double slack = recorded * std::max(std::abs(allowed.lo), std::abs(allowed.hi));
+bool is_within(double number, const AllowedRange& allowed) {
+  const double slack = recording_precision * std::max(std::abs(allowed.lo), std::abs(allowed.hi));
   return number >= allowed.lo - slack && number <= allowed.hi + slack;
 }
 
 // The accumulated light in front of a sample, as the device recorded it.
-struct Light {
+struct RayLight {
   double transmittance = 1;
-  std::array<double, 3> gathered{};
+  std::array<double, 3> accumulated{};
 };
 
 // Returns whether the light after a sample follows from the recorded light before it. The tolerance
 // is 4·2⁻²³ of the operands. It exceeds the sum of the rounding errors of one multiplication, one
 // addition, and the conversion of the recorded numbers to float.
-bool is_composited(const Light& before, const TakenSample& taken) {
+bool is_composited(const RayLight& before, const TakenSample& taken) {
   const double weight = before.transmittance * taken.opacity;
-  const double slack = 4 * recorded * before.transmittance;
+  const double slack = 4 * recording_precision * before.transmittance;
   bool right = std::abs(taken.transmittance - (before.transmittance - weight)) <= slack;
   for (std::size_t channel = 0; channel < 3; ++channel) {
     const double added = taken.opacity > 0 ? weight * taken.colour[channel] : 0.0;
-    const double sum = before.gathered[channel] + added;
-    const double scale = std::abs(before.gathered[channel]) + std::abs(added);
-    right = right && std::abs(taken.gathered[channel] - sum) <= 4 * recorded * scale + 1e-30;
+    const double sum = before.accumulated[channel] + added;
+    const double scale = std::abs(before.accumulated[channel]) + std::abs(added);
+    right = right &&
+            std::abs(taken.accumulated[channel] - sum) <= 4 * recording_precision * scale + 1e-30;
   }
   return right;
 }
 
 std::optional<Operation> first_difference(const ExpectedSample& expected, const TakenSample& taken,
-                                          const Light& before) {
+                                          const RayLight& before) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!is_within(taken.place[axis], expected.place[axis])) return Operation::place;
+    if (!is_within(taken.position[axis], expected.position[axis])) return Operation::position;
   }
   if (expected.front && !is_within(taken.front, *expected.front)) return Operation::front;
   if (!is_within(taken.value, expected.value)) return Operation::value;
@@ -66,7 +67,7 @@ std::int64_t index_of(const ExpectedRay& ray, const TakenSample& taken) {
   double along = 0;
   double square = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    along += (taken.place[axis] - ray.entry[axis]) * ray.stride[axis];
+    along += (taken.position[axis] - ray.entry[axis]) * ray.stride[axis];
     square += ray.stride[axis] * ray.stride[axis];
   }
   const double steps = square > 0 ? along / square : 0.0;
@@ -84,25 +85,25 @@ bool is_merged(const ExpectedRay& ray, const TakenSample& taken, std::int64_t in
 }
 
 // Compares the samples that a device took, one after the other, with the expected samples.
-class Comparison {
+class RayComparison {
  public:
-  explicit Comparison(const ExpectedRay& ray) : ray_(ray) {}
+  explicit RayComparison(const ExpectedRay& ray) : ray_(ray) {}
 
-  void take(const TakenSample& taken) {
+  void add_sample(const TakenSample& taken) {
     const std::int64_t index = index_of(ray_, taken);
     const bool merged = is_merged(ray_, taken, index);
     const bool in_order = index >= next_ && index < end();
-    if (in_order) pass_by(index, merged);
+    if (in_order) add_skipped_until(index, merged);
     SampleRow row{
         .expected = {}, .taken = taken, .index = index, .compared = !merged, .differs = {}};
     if (in_order) {
       row.expected = ray_.samples[static_cast<std::size_t>(index)];
       if (!merged) row.differs = first_difference(*row.expected, taken, light_);
     } else if (!merged && light_.transmittance > invisible) {
-      row.differs = Operation::take;
+      row.differs = Operation::sampling;
     }
-    add(std::move(row));
-    light_ = {taken.transmittance, taken.gathered};
+    add_row(std::move(row));
+    light_ = {taken.transmittance, taken.accumulated};
     if (in_order) next_ = index + 1;
     after_merged_ = merged;
   }
@@ -110,8 +111,8 @@ class Comparison {
   RayHistory finish() {
     // The ray may have ended because of early termination, or with a merged sample that covers the
     // rest of the ray.
-    const bool ended = light_.transmittance < std::max(ray_.ends_below, invisible);
-    pass_by(end(), ended || after_merged_);
+    const bool has_ended = light_.transmittance < std::max(ray_.ends_below, invisible);
+    add_skipped_until(end(), has_ended || after_merged_);
     return std::move(history_);
   }
 
@@ -120,25 +121,25 @@ class Comparison {
 
   // Adds rows for the samples before `index` that the device did not take. A device may leave out
   // samples without opacity, and samples that it merged into another sample.
-  void pass_by(std::int64_t index, bool excused) {
+  void add_skipped_until(std::int64_t index, bool excused) {
     for (; next_ < index; ++next_) {
       const ExpectedSample& expected = ray_.samples[static_cast<std::size_t>(next_)];
       const bool missing = !excused && !after_merged_ && expected.opacity.lo > 0;
       SampleRow row{
           .expected = expected, .taken = {}, .index = next_, .compared = !excused, .differs = {}};
-      if (missing) row.differs = Operation::take;
-      add(std::move(row));
+      if (missing) row.differs = Operation::sampling;
+      add_row(std::move(row));
     }
   }
 
-  void add(SampleRow row) {
+  void add_row(SampleRow row) {
     if (row.differs && !history_.first) history_.first = history_.rows.size();
     history_.rows.push_back(std::move(row));
   }
 
   const ExpectedRay& ray_;
   std::int64_t next_ = 0;
-  Light light_;
+  RayLight light_;
   bool after_merged_ = false;
   RayHistory history_;
 };
@@ -147,9 +148,9 @@ class Comparison {
 
 std::string_view name_of(Operation operation) {
   switch (operation) {
-    case Operation::take:
+    case Operation::sampling:
       return "samples taken";
-    case Operation::place:
+    case Operation::position:
       return "position";
     case Operation::front:
       return "value at the beginning of the step";
@@ -170,8 +171,8 @@ std::string_view name_of(Operation operation) {
 }
 
 RayHistory compare(const ExpectedRay& expected, const std::vector<TakenSample>& taken) {
-  Comparison comparison(expected);
-  for (const TakenSample& sample : taken) comparison.take(sample);
+  RayComparison comparison(expected);
+  for (const TakenSample& sample : taken) comparison.add_sample(sample);
   return comparison.finish();
 }
 

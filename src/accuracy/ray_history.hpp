@@ -14,7 +14,7 @@ namespace triptych::accuracy {
 
 // A number that the reference renderer computed, and the interval that must contain the device's
 // number.
-struct Allowed {
+struct AllowedRange {
   double value = 0;
   double lo = 0;
   double hi = 0;
@@ -24,13 +24,13 @@ struct Allowed {
 // preintegration.
 struct ExpectedSample {
   std::int64_t index = 0;
-  std::array<Allowed, 3> place{};   // in voxels
-  std::optional<Allowed> front;     // normalised value at the beginning of a step
-  Allowed value;                    // normalised value at the sample, or at the end of a step
-  std::array<Allowed, 3> colour{};  // colour after shading, not premultiplied
-  std::optional<Allowed> alpha;     // opacity per voxel length; not set for a step
-  Allowed length;                   // in voxel lengths
-  Allowed opacity;                  // opacity over `length`
+  std::array<AllowedRange, 3> position{};  // in voxels
+  std::optional<AllowedRange> front;       // normalised value at the beginning of a step
+  AllowedRange value;                    // normalised value at the sample, or at the end of a step
+  std::array<AllowedRange, 3> colour{};  // colour after shading, not premultiplied
+  std::optional<AllowedRange> alpha;     // opacity per voxel length; not set for a step
+  AllowedRange length;                   // in voxel lengths
+  AllowedRange opacity;                  // opacity over `length`
 };
 
 struct ExpectedRay {
@@ -44,21 +44,21 @@ struct ExpectedRay {
 
 // A sample that the device took.
 struct TakenSample {
-  std::array<double, 3> place{};
+  std::array<double, 3> position{};
   double front = 0;
   double value = 0;
   std::array<double, 3> colour{};
   double alpha = 0;
   double length = 0;
   double opacity = 0;
-  double transmittance = 0;          // transmittance after the sample
-  std::array<double, 3> gathered{};  // premultiplied colour after the sample
+  double transmittance = 0;             // transmittance after the sample
+  std::array<double, 3> accumulated{};  // premultiplied colour after the sample
 };
 
 // The operations of one sample, in the order in which they are computed.
 enum class Operation : std::uint8_t {
-  take,        // the sample is taken once, in the correct order, and not beyond the ray's end
-  place,       // the position of the sample
+  sampling,    // the sample is taken once, in the correct order, and not beyond the ray's end
+  position,    // the position of the sample
   front,       // the value at the beginning of the step
   value,       // the interpolated value
   alpha,       // the opacity that the transfer function returns

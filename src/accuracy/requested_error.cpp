@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array<std::string_view, all_metrics.size()> names{"rms", "covered", "p99.9", "max"};
 
-Metric metric_called(std::string_view name, std::string_view text) {
+Metric parse_metric(std::string_view name, std::string_view text) {
   const auto found = std::ranges::find(names, name);
   if (found == names.end()) {
     throw core::InputError(fmt::format("--error {}: unknown metric '{}'; expected one of {}", text,
@@ -45,7 +45,7 @@ RequestedError parse_requested_error(std::string_view text) {
         names.back()));
   }
   if (number.size() < text.size()) {
-    request.metric = metric_called(text.substr(number.size() + 1), text);
+    request.metric = parse_metric(text.substr(number.size() + 1), text);
   }
   return request;
 }
@@ -75,16 +75,16 @@ ErrorsByMetric errors_against(const core::Image& limit, const core::Image& image
     if (covered) ++errors.covered;
   }
   if (!std::isfinite(squares)) return errors;
-  const auto over = [squares](std::size_t count) {
+  const auto root_mean_square_over = [squares](std::size_t count) {
     return squares > 0 ? std::sqrt(squares / (4.0 * static_cast<double>(count))) : 0.0;
   };
   const double largest = *std::ranges::max_element(pixels);
-  errors.by_metric = {over(pixels.size()), over(errors.covered),
+  errors.by_metric = {root_mean_square_over(pixels.size()), root_mean_square_over(errors.covered),
                       record::percentile(std::move(pixels), 0.999), largest};
   return errors;
 }
 
-ErrorsByMetric errors_of_nothing(const core::Image& limit) {
+ErrorsByMetric errors_of_empty_image(const core::Image& limit) {
   return errors_against(limit, core::Image(limit.width, limit.height));
 }
 

@@ -44,6 +44,6 @@ struct ErrorsByMetric {
 // if the sizes differ or if a value is not finite.
 [[nodiscard]] ErrorsByMetric errors_against(const core::Image& limit, const core::Image& image);
 // Returns the errors of an image in which nothing is drawn.
-[[nodiscard]] ErrorsByMetric errors_of_nothing(const core::Image& limit);
+[[nodiscard]] ErrorsByMetric errors_of_empty_image(const core::Image& limit);
 
 }  // namespace triptych::accuracy

@@ -8,9 +8,9 @@
 namespace triptych::accuracy {
 namespace {
 
-bool has_colour(const ExpectedSurface& expected, const ShownSurface& shown) {
+bool matches_colour(const ExpectedSurface& expected, const DrawnSurface& drawn) {
   for (std::size_t channel = 0; channel < 4; ++channel) {
-    const double error = std::abs(shown.colour[channel] - expected.colour[channel]);
+    const double error = std::abs(drawn.colour[channel] - expected.colour[channel]);
     if (!(error <= expected.colour_bound)) return false;
   }
   return true;
@@ -36,21 +36,21 @@ std::string_view name_of(SurfaceDifference difference) {
   return "";
 }
 
-SurfaceDifference compare(const ExpectedSurface& expected, const ShownSurface& shown) {
-  if (expected.certain && expected.id != shown.id) {
-    if (shown.id == core::Image::no_particle) return SurfaceDifference::missing;
+SurfaceDifference compare(const ExpectedSurface& expected, const DrawnSurface& drawn) {
+  if (expected.certain && expected.id != drawn.id) {
+    if (drawn.id == core::Image::no_particle) return SurfaceDifference::missing;
     return expected.id == core::Image::no_particle ? SurfaceDifference::unexpected
                                                    : SurfaceDifference::particle;
   }
   const bool has_depth = expected.certain && expected.id != core::Image::no_particle;
-  if (has_depth && !(std::abs(shown.depth - expected.depth) <= expected.depth_bound)) {
+  if (has_depth && !(std::abs(drawn.depth - expected.depth) <= expected.depth_bound)) {
     return SurfaceDifference::depth;
   }
-  return has_colour(expected, shown) ? SurfaceDifference::none : SurfaceDifference::colour;
+  return matches_colour(expected, drawn) ? SurfaceDifference::none : SurfaceDifference::colour;
 }
 
-Fewest fewest_of(Particles particles, const std::function<bool(const Particles&)>& wrong,
-                 int most_calls) {
+SmallestSet smallest_set_of(Particles particles, const std::function<bool(const Particles&)>& wrong,
+                            int most_calls) {
   std::size_t parts = 2;
   while (particles.size() > 1) {
     bool smaller = false;
@@ -58,10 +58,10 @@ Fewest fewest_of(Particles particles, const std::function<bool(const Particles&)
       if (most_calls-- <= 0) return {.particles = std::move(particles), .stopped_early = true};
       const auto begin = static_cast<std::ptrdiff_t>(particles.size() * part / parts);
       const auto end = static_cast<std::ptrdiff_t>(particles.size() * (part + 1) / parts);
-      Particles rest(particles.begin(), particles.begin() + begin);
-      rest.insert(rest.end(), particles.begin() + end, particles.end());
-      if (!wrong(rest)) continue;
-      particles = std::move(rest);
+      Particles remaining(particles.begin(), particles.begin() + begin);
+      remaining.insert(remaining.end(), particles.begin() + end, particles.end());
+      if (!wrong(remaining)) continue;
+      particles = std::move(remaining);
       parts = std::max<std::size_t>(parts - 1, 2);
       smaller = true;
     }

@@ -14,7 +14,7 @@ namespace triptych::accuracy {
 
 // The surface that a device shows in a pixel. The id is core::Image::no_particle if no particle is
 // visible.
-struct ShownSurface {
+struct DrawnSurface {
   std::uint32_t id = 0;
   double depth = 0;  // distance along the view axis
   std::array<double, 4> colour{};
@@ -41,38 +41,39 @@ enum class SurfaceDifference : std::uint8_t {
   colour       // the device shows the correct particle and depth in a wrong colour
 };
 [[nodiscard]] std::string_view name_of(SurfaceDifference difference);
-[[nodiscard]] SurfaceDifference compare(const ExpectedSurface& expected, const ShownSurface& shown);
+[[nodiscard]] SurfaceDifference compare(const ExpectedSurface& expected, const DrawnSurface& drawn);
 
 // The result of drawing only one sphere, which the pixel's ray may hit.
 struct SpriteRow {
   std::uint32_t id = 0;
   ExpectedSurface expected;
-  ShownSurface shown;
+  DrawnSurface shown;
   SurfaceDifference differs = SurfaceDifference::none;
 };
 
 struct SpriteHistory {
   std::vector<SpriteRow> rows;       // sorted from front to back
-  std::size_t left_out = 0;          // number of spheres behind `rows`, which were not drawn alone
+  std::size_t untested = 0;          // number of spheres behind `rows`, which were not drawn alone
   std::optional<std::size_t> first;  // the first row that differs
   // If the pixel is wrong but no row is wrong, these are the ids of the smallest set of spheres
   // that was found for which the pixel is wrong. Unless `stopped_early`, the pixel is correct if
   // any one sphere of the set is left out.
-  std::vector<std::uint32_t> fewest;
-  SurfaceDifference fewest_differs = SurfaceDifference::none;
+  std::vector<std::uint32_t> smallest_set;
+  SurfaceDifference smallest_set_differs = SurfaceDifference::none;
   bool stopped_early = false;
 };
 
 // A set of particles, given by their indices.
 using Particles = std::vector<std::uint32_t>;
-struct Fewest {
+struct SmallestSet {
   Particles particles;
   bool stopped_early = false;  // whether the limit on calls ended the search
 };
 // Reduces `particles`, for which `wrong` returns true, by leaving out parts as long as `wrong`
 // still returns true. Calls `wrong` at most `most_calls` times. The algorithm is ddmin (Zeller and
 // Hildebrandt 2002).
-[[nodiscard]] Fewest fewest_of(Particles particles,
-                               const std::function<bool(const Particles&)>& wrong, int most_calls);
+[[nodiscard]] SmallestSet smallest_set_of(Particles particles,
+                                          const std::function<bool(const Particles&)>& wrong,
+                                          int most_calls);
 
 }  // namespace triptych::accuracy

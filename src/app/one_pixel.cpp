@@ -37,9 +37,9 @@ accuracy::TakenSample taken_sample(const technique::TracedSample& traced) {
                               .opacity = traced.opacity,
                               .transmittance = traced.transmittance};
   for (std::size_t k = 0; k < 3; ++k) {
-    taken.place[k] = traced.place[k];
+    taken.position[k] = traced.place[k];
     taken.colour[k] = traced.colour[k];
-    taken.gathered[k] = traced.gathered[k];
+    taken.accumulated[k] = traced.gathered[k];
   }
   return taken;
 }
@@ -55,7 +55,7 @@ void add_part_of_step(accuracy::TakenSample& step, const accuracy::TakenSample& 
   step.opacity = sum;
   step.value = part.value;
   step.transmittance = part.transmittance;
-  step.gathered = part.gathered;
+  step.accumulated = part.accumulated;
 }
 
 // Converts the recorded samples. The preintegrated quadrature divides a step into parts, and
@@ -66,7 +66,7 @@ std::vector<accuracy::TakenSample> taken_samples(const technique::RayTrace& trac
   for (const technique::TracedSample& traced : trace.samples) {
     const accuracy::TakenSample taken = taken_sample(traced);
     const bool continues = traced.kind == technique::TracedKind::step && !samples.empty() &&
-                           samples.back().place == taken.place;
+                           samples.back().position == taken.position;
     if (continues) {
       add_part_of_step(samples.back(), taken);
     } else {
@@ -115,7 +115,7 @@ Shown history_of_volume(measure::SuiteWithTruth& suite, const measure::FrameInPr
 Shown history_of_particles(const accuracy::SpriteHistory& history,
                            const report::PixelInImage& pixel) {
   return {.text = report::pixel_text(pixel, history),
-          .differs = history.first.has_value() || !history.fewest.empty()};
+          .differs = history.first.has_value() || !history.smallest_set.empty()};
 }
 
 }  // namespace

@@ -70,14 +70,14 @@ Design design_of(Points x, Points weights) {
 
 Line weighted_line(Points x, Points y, Points weights) {
   const Design design = design_of(x, weights);
-  double level = 0;
+  double sum_y = 0;
   double product = 0;
   for (std::size_t i = 0; i < x.size(); ++i) {
-    level += weights[i] * y[i];
+    sum_y += weights[i] * y[i];
     product += weights[i] * (x[i] - design.centre) * y[i];
   }
   const double slope = product / design.spread;
-  return {level / design.weight - slope * design.centre, slope};
+  return {sum_y / design.weight - slope * design.centre, slope};
 }
 
 double rho(double u) {
@@ -161,20 +161,20 @@ class SmallestScale {
  public:
   SmallestScale(Points x, Points y) : x_(x), y_(y), least_(least_scale(y)) {}
 
-  void start_at(const Line& line) { keep(refined(x_, y_, line, least_)); }
+  void start_at(const Line& line) { keep_smaller(refined(x_, y_, line, least_)); }
 
   void try_pair(std::size_t i, std::size_t j) {
     if (x_[i] == x_[j] || best_.scale == 0) return;
     const double slope = (y_[j] - y_[i]) / (x_[j] - x_[i]);
     const Line line{y_[i] - slope * x_[i], slope};
     const auto residuals = residuals_of(x_, y_, line);
-    if (mean_rho(residuals, best_.scale) < half) keep(refined(x_, y_, line, least_));
+    if (mean_rho(residuals, best_.scale) < half) keep_smaller(refined(x_, y_, line, least_));
   }
 
   [[nodiscard]] const Candidate& best() const { return best_; }
 
  private:
-  void keep(const Candidate& candidate) {
+  void keep_smaller(const Candidate& candidate) {
     if (candidate.scale < best_.scale) best_ = candidate;
   }
   Points x_;
@@ -205,8 +205,8 @@ Line m_estimate(Points x, Points y, const Candidate& start) {
   for (int step = 0; step < most_steps; ++step) {
     const auto weights = weights_of(residuals_of(x, y, line), start.scale, Bisquare::c_efficient);
     const Line next = weighted_line(x, y, weights);
-    const auto moved = [&](double at) { return std::abs(next.at(at) - line.at(at)); };
-    const bool done = std::max(moved(std::ranges::min(x)), moved(std::ranges::max(x))) <
+    const auto change_at = [&](double at) { return std::abs(next.at(at) - line.at(at)); };
+    const bool done = std::max(change_at(std::ranges::min(x)), change_at(std::ranges::max(x))) <
                       step_tolerance * start.scale;
     line = next;
     if (done) break;
@@ -232,8 +232,8 @@ std::vector<double> pair_slopes(Points x, Points y) {
 void add_errors(RobustLine& fit, Points x) {
   const Design design = design_of(x, fit.weights);
   for (const double value : x) {
-    const double away = value - design.centre;
-    fit.leverages.push_back(1 / design.weight + away * away / design.spread);
+    const double distance = value - design.centre;
+    fit.leverages.push_back(1 / design.weight + distance * distance / design.spread);
   }
   if (!(fit.scale > 0)) return;
   const double variance = robust_variance(fit.residuals, fit.scale, parameters) * fit.scale *
@@ -285,7 +285,7 @@ double bisquare_weight(double residual, double scale) {
   return weight_at(residual, scale, Bisquare::c_efficient);
 }
 
-double robust_variance(Points residuals, double scale, std::size_t fitted) {
+double robust_variance(Points residuals, double scale, std::size_t fitted_parameters) {
   double squares = 0;
   double slopes = 0;
   for (const double residual : residuals) {
@@ -298,7 +298,7 @@ double robust_variance(Points residuals, double scale, std::size_t fitted) {
   }
   const auto n = static_cast<double>(residuals.size());
   const double mean_slope = slopes / n;
-  return squares / (n - static_cast<double>(fitted)) / (mean_slope * mean_slope);
+  return squares / (n - static_cast<double>(fitted_parameters)) / (mean_slope * mean_slope);
 }
 
 RobustLine robust_line(Points x, Points y) {

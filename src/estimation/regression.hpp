@@ -80,6 +80,6 @@ struct RobustLine {
 // Without W, a distant outlier would make the estimate look more certain. κ is 1/0.95 for normal
 // residuals and many points.
 [[nodiscard]] double robust_variance(std::span<const double> residuals, double scale,
-                                     std::size_t parameters);
+                                     std::size_t fitted_parameters);
 
 }  // namespace triptych::estimation

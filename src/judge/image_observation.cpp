@@ -18,7 +18,7 @@ void add_sizes(Observation& observation, const core::Image& image, const core::I
   set_number(observation, "expected_height", expected.height);
 }
 
-void add_surface(Observation& observation, const accuracy::ImageComparison::Surface& first) {
+void add_surface(Observation& observation, const accuracy::ImageComparison::SurfaceError& first) {
   set_number(observation, "x", first.x);
   set_number(observation, "y", first.y);
   if (first.id != core::Image::no_particle) set_number(observation, "particle", first.id);

@@ -6,11 +6,11 @@
 namespace triptych::volume_suite {
 namespace {
 
-accuracy::Allowed around(double value, double error) {
+accuracy::AllowedRange around(double value, double error) {
   return {value, value - error, value + error};
 }
 
-accuracy::Allowed around(const reference::Bounded& bounded) {
+accuracy::AllowedRange around(const reference::Bounded& bounded) {
   return around(bounded.value, bounded.error);
 }
 
@@ -18,15 +18,15 @@ accuracy::ExpectedSample expected_sample(const reference::HistorySample& sample)
   const reference::Looked& looked = sample.looked;
   accuracy::ExpectedSample expected{
       .index = sample.index,
-      .place = {around(sample.place.x, sample.place_error.x),
-                around(sample.place.y, sample.place_error.y),
-                around(sample.place.z, sample.place_error.z)},
+      .position = {around(sample.place.x, sample.place_error.x),
+                   around(sample.place.y, sample.place_error.y),
+                   around(sample.place.z, sample.place_error.z)},
       .front = {},
       .value = around(sample.value),
       .colour = {around(looked.colour[0], looked.colour_error[0]),
                  around(looked.colour[1], looked.colour_error[1]),
                  around(looked.colour[2], looked.colour_error[2])},
-      .alpha = accuracy::Allowed{looked.alpha, looked.alpha_lo, looked.alpha_hi},
+      .alpha = accuracy::AllowedRange{looked.alpha, looked.alpha_lo, looked.alpha_hi},
       .length = {sample.length.nominal, sample.length.shortest, sample.length.longest},
       .opacity = {sample.opacity.nominal, sample.opacity.lo, sample.opacity.hi}};
   if (sample.front) {

@@ -115,7 +115,7 @@ class Scenes {
            accuracy::AccuracyCase each) {
     const auto [known, is_new] = index_.try_emplace({record.device, limit.key}, scenes_.size());
     if (is_new) scenes_.push_back(accuracy::accuracy_scene(record, limit));
-    accuracy::narrow(scenes_[known->second], record);
+    accuracy::keep_common_levels(scenes_[known->second], record);
     std::vector<accuracy::AccuracyCase>& cases = scenes_[known->second].cases;
     if (std::ranges::find(cases, each.factors, &accuracy::AccuracyCase::factors) != cases.end())
       return;

@@ -80,7 +80,7 @@ class Search {
           ": a stress scene has no limit image, so no error can be computed; choose other data");
       return;
     }
-    const auto nothing = accuracy::errors_of_nothing(limit->image);
+    const auto nothing = accuracy::errors_of_empty_image(limit->image);
     if (nothing.of(request_.metric) <= request_.error) {
       result.out_of_reach.push_back(fmt::format(
           "{}: an empty image already meets the error limit {}, because its error is {:.3g} and "
@@ -268,7 +268,7 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
         {summary ? std::optional(summary->median) : std::nullopt, errors.of(request.metric)});
     group.errors.push_back(errors);
     group.records.push_back(&record);
-    group.nothing = accuracy::errors_of_nothing(limit->image);
+    group.nothing = accuracy::errors_of_empty_image(limit->image);
   }
   std::vector<ErrorAnswer> answers;
   for (const auto& [key, group] : groups) {

@@ -48,7 +48,7 @@ class SpriteDraws {
   }
 
   // Returns the pixel after the device has drawn only these particles.
-  [[nodiscard]] accuracy::ShownSurface shown(const Particles& particles) {
+  [[nodiscard]] accuracy::DrawnSurface shown(const Particles& particles) {
     std::get<ParticleWork>(work_.scene).scene.particles =
         std::make_shared<const scene::ParticleSet>(scene::particle_subset(*all_, particles));
     const std::unique_ptr<Prepared> prepared = device_.prepare(work_);
@@ -87,18 +87,19 @@ void find_fewest(accuracy::SpriteHistory& history, SpriteDraws& draws, const Par
     return draws.difference(particles) != SurfaceDifference::none;
   };
   const Particles begin = is_wrong(near) ? near : draws.all();
-  accuracy::Fewest fewest = accuracy::fewest_of(begin, is_wrong, most_draws);
-  history.fewest_differs = draws.difference(fewest.particles);
+  accuracy::SmallestSet fewest = accuracy::smallest_set_of(begin, is_wrong, most_draws);
+  history.smallest_set_differs = draws.difference(fewest.particles);
   history.stopped_early = fewest.stopped_early;
-  for (const std::uint32_t each : fewest.particles) history.fewest.push_back(draws.id_of(each));
+  for (const std::uint32_t each : fewest.particles)
+    history.smallest_set.push_back(draws.id_of(each));
 }
 
 }  // namespace
 
-accuracy::ShownSurface shown_at(const core::Image& image, PixelPlace place) {
+accuracy::DrawnSurface shown_at(const core::Image& image, PixelPlace place) {
   const std::size_t at = static_cast<std::size_t>(place.y) * static_cast<std::size_t>(image.width) +
                          static_cast<std::size_t>(place.x);
-  accuracy::ShownSurface shown{.id = core::Image::no_particle};
+  accuracy::DrawnSurface shown{.id = core::Image::no_particle};
   if (!image.ids.empty()) shown.id = image.ids[at];
   if (!image.depth.empty()) shown.depth = image.depth[at];
   for (std::size_t k = 0; k < 4; ++k) shown.colour[k] = image.rgba[4 * at + k];
@@ -107,7 +108,7 @@ accuracy::ShownSurface shown_at(const core::Image& image, PixelPlace place) {
 
 accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& suite,
                                        const Described& described, PixelPlace place,
-                                       const accuracy::ShownSurface& whole) {
+                                       const accuracy::DrawnSurface& whole) {
   auto* const expects = dynamic_cast<ExpectsSprites*>(&suite);
   if (expects == nullptr) throw core::NotSupported(not_traced);
   SpriteDraws draws(device, work, *expects, described, place);
@@ -117,7 +118,7 @@ accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& 
     if (history.rows.size() == most_rows) break;
     add_row(history, draws, particle);
   }
-  history.left_out = near.size() - history.rows.size();
+  history.untested = near.size() - history.rows.size();
   const bool wrong =
       accuracy::compare(draws.expected(draws.all()), whole) != SurfaceDifference::none;
   if (wrong && !history.first) find_fewest(history, draws, near);

@@ -18,7 +18,7 @@ struct Described {
   const std::map<std::string, double>& precision;  // Record::precision
 };
 
-[[nodiscard]] accuracy::ShownSurface shown_at(const core::Image& image, PixelPlace place);
+[[nodiscard]] accuracy::DrawnSurface shown_at(const core::Image& image, PixelPlace place);
 
 // Returns the history of the pixel. `whole` is the device's result for this pixel if all particles
 // are drawn. If that result is wrong although each sphere alone is drawn correctly, the function
@@ -27,6 +27,6 @@ struct Described {
 // functions.
 [[nodiscard]] accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& suite,
                                                      const Described& described, PixelPlace place,
-                                                     const accuracy::ShownSurface& whole);
+                                                     const accuracy::DrawnSurface& whole);
 
 }  // namespace triptych::measure

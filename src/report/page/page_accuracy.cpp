@@ -143,15 +143,15 @@ class Parts {
         error_text(least.largest), time_text(least));
     if (least.factors.contains("step")) add("error due to the step size", "", least.lattice);
     add("error due to rounding, storage and early ray termination", "", least.arithmetic);
-    for (const accuracy::Switched& each : accuracy::switched_alone(scene_.cases)) {
+    for (const accuracy::FactorSwitch& each : accuracy::single_factor_switches(scene_.cases)) {
       add(each, scene_.cases[each.to], "");
     }
     for (const AccuracyScene& other : scenes_) {
       if (other.device != scene_.device || other.limit == scene_.limit) continue;
-      const auto each = accuracy::switched_between(scene_.cases, other.cases, "viewport");
+      const auto each = accuracy::factor_switch_between(scene_.cases, other.cases, "viewport");
       if (each) add(*each, other.cases[each->to], " (a different image)");
     }
-    add("error due to 8-bit output", "", scene_.eight_bits);
+    add("error due to 8-bit output", "", scene_.eight_bit_error);
     if (scene_.representation)
       add("error due to the voxel size and the transfer-function table", "",
           *scene_.representation);
@@ -164,7 +164,8 @@ class Parts {
     rows_.push_back({title_, scene_.device, what, std::move(before), error_text(error),
                      std::move(largest), std::move(time)});
   }
-  void add(const accuracy::Switched& each, const accuracy::AccuracyCase& to, const char* remark) {
+  void add(const accuracy::FactorSwitch& each, const accuracy::AccuracyCase& to,
+           const char* remark) {
     const accuracy::AccuracyCase& from = scene_.cases[each.from];
     add(fmt::format("{} {} → {}{}", each.factor, level(from, each.factor), level(to, each.factor),
                     remark),

@@ -11,7 +11,7 @@
 namespace triptych::report {
 namespace {
 
-using accuracy::Allowed;
+using accuracy::AllowedRange;
 using accuracy::Operation;
 using accuracy::SampleRow;
 
@@ -21,17 +21,17 @@ std::string colour_line(std::string_view name, const PixelColour& colour,
                      colour[2], colour[3], about.empty() ? "" : "  " + about);
 }
 
-std::string interval(const Allowed& allowed) {
+std::string interval(const AllowedRange& allowed) {
   return fmt::format("{:.7g} to {:.7g}", allowed.lo, allowed.hi);
 }
 
 // States that a number computed on the device lies outside the interval that the reference allows.
-std::string outside(std::string_view what, double number, const Allowed& allowed) {
+std::string outside(std::string_view what, double number, const AllowedRange& allowed) {
   return fmt::format("{} is {:.7g}, but the reference allows {}", what, number, interval(allowed));
 }
 
 std::string about_vector(std::string_view what, const std::array<double, 3>& numbers,
-                         const std::array<Allowed, 3>& allowed, std::string_view components) {
+                         const std::array<AllowedRange, 3>& allowed, std::string_view components) {
   std::string text;
   for (std::size_t k = 0; k < 3; ++k) {
     if (numbers[k] >= allowed[k].lo && numbers[k] <= allowed[k].hi) continue;
@@ -54,13 +54,13 @@ std::string about_take(const SampleRow& row) {
 // differ. It states the difference.
 std::string difference(const SampleRow& row) {
   const Operation what = row.differs.value();
-  if (what == Operation::take) return about_take(row);
+  if (what == Operation::sampling) return about_take(row);
   const accuracy::ExpectedSample& expected = row.expected.value();
   const accuracy::TakenSample& taken = row.taken.value();
   const std::string_view name = accuracy::name_of(what);
   switch (what) {
-    case Operation::place:
-      return about_vector(name, taken.place, expected.place, "xyz");
+    case Operation::position:
+      return about_vector(name, taken.position, expected.position, "xyz");
     case Operation::front:
       return outside(name, taken.front, expected.front.value());
     case Operation::value:
@@ -74,7 +74,7 @@ std::string difference(const SampleRow& row) {
     case Operation::opacity:
       return outside(name, taken.opacity, expected.opacity);
     case Operation::compositing:
-    case Operation::take:
+    case Operation::sampling:
       break;
   }
   return "compositing: the transmittance and light recorded after this sample are not the result "
@@ -92,19 +92,19 @@ std::string numbers(std::string_view name, const std::array<double, 3>& place, d
 std::string device_line(const SampleRow& row) {
   const accuracy::TakenSample& taken = *row.taken;
   return fmt::format("{:>7} {}{:>12.8f}", row.index,
-                     numbers(row.compared ? "device" : "merged", taken.place, taken.value,
+                     numbers(row.compared ? "device" : "merged", taken.position, taken.value,
                              taken.colour, taken.length, taken.opacity),
                      taken.transmittance);
 }
 
 std::string reference_line(const SampleRow& row) {
   const accuracy::ExpectedSample& expected = *row.expected;
-  const auto values = [](const std::array<Allowed, 3>& of) {
+  const auto values = [](const std::array<AllowedRange, 3>& of) {
     return std::array<double, 3>{of[0].value, of[1].value, of[2].value};
   };
   return fmt::format(
       "{:>7} {}", row.taken ? std::string() : std::to_string(row.index),
-      numbers("reference", values(expected.place), expected.value.value, values(expected.colour),
+      numbers("reference", values(expected.position), expected.value.value, values(expected.colour),
               expected.length.value, expected.opacity.value));
 }
 
@@ -264,16 +264,16 @@ void add_sprite(const accuracy::SpriteHistory& history, std::size_t at, PixelTex
 // particles are drawn.
 std::string about_fewest(const accuracy::SpriteHistory& history) {
   constexpr std::size_t most_named = 16;
-  const std::size_t count = history.fewest.size();
+  const std::size_t count = history.smallest_set.size();
   std::string ids;
   for (std::size_t k = 0; k < std::min(count, most_named); ++k) {
-    ids += fmt::format("{}{}", k == 0 ? "" : ", ", history.fewest[k]);
+    ids += fmt::format("{}{}", k == 0 ? "" : ", ", history.smallest_set[k]);
   }
   if (count > most_named) ids += ", …";
   return fmt::format(
       "each sphere is correct when drawn alone, but the pixel is wrong ({}) when these {} spheres "
       "are drawn together{}: {}",
-      accuracy::name_of(history.fewest_differs), count,
+      accuracy::name_of(history.smallest_set_differs), count,
       history.stopped_early ? " (and perhaps when fewer are drawn)"
                             : " (but correct if even one of these spheres is left out)",
       ids);
@@ -304,15 +304,15 @@ PixelText pixel_text(const PixelInImage& pixel, const accuracy::SpriteHistory& h
     const accuracy::SpriteRow& row = history.rows[*history.first];
     text.summary.push_back(fmt::format("first difference: particle {}, drawn alone: {}", row.id,
                                        accuracy::name_of(row.differs)));
-  } else if (!history.fewest.empty()) {
+  } else if (!history.smallest_set.empty()) {
     text.summary.push_back(about_fewest(history));
   } else {
     text.summary.emplace_back(history.rows.empty() ? "the ray hits no sphere"
                                                    : "no sphere differs from the reference");
   }
-  if (history.left_out > 0) {
+  if (history.untested > 0) {
     text.summary.push_back(
-        fmt::format("{} more spheres behind these were not tested", history.left_out));
+        fmt::format("{} more spheres behind these were not tested", history.untested));
   }
   text.table.push_back(fmt::format("{:>8} {:<10}{:>12}{:>16}{:>10}{:>10}{:>10}", "sphere", "",
                                    "visible id", "depth", "red", "green", "blue"));

@@ -116,8 +116,8 @@ TEST(ErrorsByMetric, ContainEveryMetric) {
   EXPECT_DOUBLE_EQ(errors.of(Metric::p99_9), 0.5);
   EXPECT_DOUBLE_EQ(errors.of(Metric::rms), 0.5 * std::sqrt(20 / 8000.0));
   EXPECT_DOUBLE_EQ(errors.of(Metric::covered), 0.25);
-  EXPECT_DOUBLE_EQ(errors_of_nothing(limit).of(Metric::covered), 0.25);
-  EXPECT_EQ(errors_of_nothing(core::Image(3, 3)).of(Metric::covered), 0);
+  EXPECT_DOUBLE_EQ(errors_of_empty_image(limit).of(Metric::covered), 0.25);
+  EXPECT_EQ(errors_of_empty_image(core::Image(3, 3)).of(Metric::covered), 0);
   image.rgba[7] = std::nanf("");
   EXPECT_TRUE(std::isnan(errors_against(limit, image).of(Metric::rms)));
   EXPECT_TRUE(std::isnan(errors_against(limit, core::Image(3, 3)).of(Metric::max)));

@@ -22,7 +22,7 @@ std::vector<StepError> errors_by(const std::vector<double>& steps,
 
 const std::vector<double> halvings{2, 1, 0.5, 0.25, 0.125, 0.0625};
 
-AccuracyCase at(double time, double rmse, double step = 1, const std::string& ert = "0") {
+AccuracyCase step_case(double time, double rmse, double step = 1, const std::string& ert = "0") {
   return {.configuration = {},
           .factors = {{"step", step == 1 ? "1" : std::to_string(step)}, {"ert", ert}},
           .time_ns = time,
@@ -92,19 +92,21 @@ TEST(FitOrder, TwoPointsAreNotEnough) {
 }
 
 TEST(Front, ContainsTheCasesThatAreNotDominated) {
-  const std::vector<AccuracyCase> cases{at(1, 8), at(2, 4), at(3, 5), at(4, 2), at(4, 2), at(2, 6)};
+  const std::vector<AccuracyCase> cases{step_case(1, 8), step_case(2, 4), step_case(3, 5),
+                                        step_case(4, 2), step_case(4, 2), step_case(2, 6)};
   const auto front = pareto_front(cases);
   EXPECT_EQ(front, (std::vector<std::size_t>{0, 1, 3}));
-  const auto beaten = dominated(cases, front);
-  ASSERT_EQ(beaten.size(), 2U);  // a case that equals a case on the front is not dominated
-  EXPECT_EQ(beaten[0].index, 2U);
-  EXPECT_EQ(beaten[0].by, 1U);
-  EXPECT_EQ(beaten[1].index, 5U);
-  EXPECT_EQ(beaten[1].by, 1U);
+  const auto dominated_cases = dominated(cases, front);
+  ASSERT_EQ(dominated_cases.size(), 2U);  // a case that equals a case on the front is not dominated
+  EXPECT_EQ(dominated_cases[0].index, 2U);
+  EXPECT_EQ(dominated_cases[0].by, 1U);
+  EXPECT_EQ(dominated_cases[1].index, 5U);
+  EXPECT_EQ(dominated_cases[1].by, 1U);
 }
 
 TEST(Families, DifferOnlyInTheStep) {
-  const std::vector<AccuracyCase> cases{at(1, 1, 0.5, "0"), at(1, 1, 1, "0"), at(1, 1, 1, "0.1")};
+  const std::vector<AccuracyCase> cases{step_case(1, 1, 0.5, "0"), step_case(1, 1, 1, "0"),
+                                        step_case(1, 1, 1, "0.1")};
   const auto families = accuracy_families(cases);
   ASSERT_EQ(families.size(), 2U);
   EXPECT_EQ(families[0].name, "ert=0");
@@ -115,7 +117,7 @@ TEST(Families, DifferOnlyInTheStep) {
 TEST(TimeToError, IsStraightOnLogarithmicAxes) {
   // Time is proportional to 1/step and the error to step², so the error is proportional to time⁻².
   // A quarter of the error therefore takes twice the time.
-  const std::vector<AccuracyCase> cases{at(1, 1e-2, 1), at(4, 1e-2 / 16, 0.25)};
+  const std::vector<AccuracyCase> cases{step_case(1, 1e-2, 1), step_case(4, 1e-2 / 16, 0.25)};
   const auto families = accuracy_families(cases);
   EXPECT_NEAR(*time_to_error(cases, families, 1e-2 / 4), 2, 1e-12);
   EXPECT_EQ(*time_to_error(cases, families, 0.1), 1);  // the first case is already the fastest
@@ -123,15 +125,15 @@ TEST(TimeToError, IsStraightOnLogarithmicAxes) {
 }
 
 TEST(TimeToError, DoesNotInterpolateBetweenFamilies) {
-  const std::vector<AccuracyCase> cases{at(1, 1e-2, 1, "0"), at(4, 1e-4, 1, "0.1")};
+  const std::vector<AccuracyCase> cases{step_case(1, 1e-2, 1, "0"), step_case(4, 1e-4, 1, "0.1")};
   EXPECT_EQ(*time_to_error(cases, accuracy_families(cases), 1e-3), 4);
 }
 
 TEST(SwitchedAlone, ChangesOneFactor) {
-  const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 3, 0.5, "0.1"),
-                                        at(5, 4, 1, "0.1")};
+  const std::vector<AccuracyCase> cases{step_case(9, 1, 0.5, "0"), step_case(5, 2, 1, "0"),
+                                        step_case(5, 3, 0.5, "0.1"), step_case(5, 4, 1, "0.1")};
   EXPECT_EQ(most_accurate(cases), 0U);
-  const auto switched = switched_alone(cases);
+  const auto switched = single_factor_switches(cases);
   ASSERT_EQ(switched.size(), 2U);
   EXPECT_EQ(switched[0].factor, "ert");
   EXPECT_EQ(switched[0].from, 0U);
@@ -144,8 +146,9 @@ TEST(SwitchedAlone, ChangesOneFactor) {
 // The level ert=0.1 was measured only with step 1. It is therefore compared with the best case that
 // has the same step, not with the most accurate case, which has step 0.5.
 TEST(SwitchedAlone, UsesTheBestCaseWithACounterpart) {
-  const std::vector<AccuracyCase> cases{at(9, 1, 0.5, "0"), at(5, 2, 1, "0"), at(5, 4, 1, "0.1")};
-  const auto switched = switched_alone(cases);
+  const std::vector<AccuracyCase> cases{step_case(9, 1, 0.5, "0"), step_case(5, 2, 1, "0"),
+                                        step_case(5, 4, 1, "0.1")};
+  const auto switched = single_factor_switches(cases);
   ASSERT_EQ(switched.size(), 2U);
   EXPECT_EQ(switched[0].factor, "ert");
   EXPECT_EQ(switched[0].from, 1U);
@@ -153,23 +156,23 @@ TEST(SwitchedAlone, UsesTheBestCaseWithACounterpart) {
 }
 
 TEST(SwitchedBetween, FindsTheCounterpartInAnotherScene) {
-  std::vector<AccuracyCase> cases{at(9, 1, 0.5), at(5, 2, 1)};
-  std::vector<AccuracyCase> others{at(5, 3, 1), at(9, 4, 0.25)};
+  std::vector<AccuracyCase> cases{step_case(9, 1, 0.5), step_case(5, 2, 1)};
+  std::vector<AccuracyCase> others{step_case(5, 3, 1), step_case(9, 4, 0.25)};
   for (AccuracyCase& each : cases) each.factors["viewport"] = "48";
   for (AccuracyCase& each : others) each.factors["viewport"] = "96";
-  const auto found = switched_between(cases, others, "viewport");
+  const auto found = factor_switch_between(cases, others, "viewport");
   ASSERT_TRUE(found);
   // The most accurate case has step 0.5, which the other scene lacks. Therefore the cases with step
   // 1 are chosen.
   EXPECT_EQ(found->from, 1U);
   EXPECT_EQ(found->to, 0U);
-  EXPECT_FALSE(switched_between(cases, others, "step"));
+  EXPECT_FALSE(factor_switch_between(cases, others, "step"));
 }
 
 // Errors and orders need no times. Fronts and times to an error contain only cases that have times.
 TEST(Untimed, HasOrdersButNoFront) {
   std::vector<AccuracyCase> cases;
-  for (const double step : {1.0, 0.5, 0.25}) cases.push_back(at(1, 0.1 * step * step, step));
+  for (const double step : {1.0, 0.5, 0.25}) cases.push_back(step_case(1, 0.1 * step * step, step));
   for (AccuracyCase& each : cases) each.time_ns.reset();
   const auto families = accuracy_families(cases);
   ASSERT_EQ(families.size(), 1U);
@@ -179,7 +182,7 @@ TEST(Untimed, HasOrdersButNoFront) {
   EXPECT_TRUE(dominated(cases, {}).empty());
   EXPECT_FALSE(time_to_error(cases, families, 1));
   EXPECT_EQ(most_accurate(cases), 2U);
-  cases.push_back(at(7, 0.05, 2));
+  cases.push_back(step_case(7, 0.05, 2));
   EXPECT_EQ(pareto_front(cases), (std::vector<std::size_t>{3}));
 }
 

@@ -7,10 +7,10 @@
 namespace triptych::accuracy {
 namespace {
 
-constexpr double wide = 1e-4;
+constexpr double tolerance = 1e-4;
 
-Allowed near(double value) {
-  return {value, value - wide, value + wide};
+AllowedRange range_around(double value) {
+  return {value, value - tolerance, value + tolerance};
 }
 
 // Returns a ray with four samples of opacity ¼ along x, two voxels apart. The last sample covers
@@ -19,14 +19,15 @@ ExpectedRay four_samples() {
   ExpectedRay ray{.entry = {1, 5, 5}, .stride = {2, 0, 0}, .samples = {}, .ends_below = 0.001};
   for (int i = 0; i < 4; ++i) {
     const double length = i == 3 ? 1 : 2;
-    ray.samples.push_back({.index = i,
-                           .place = {near(1 + 2 * (i + 0.5)), near(5), near(5)},
-                           .front = {},
-                           .value = near(0.5),
-                           .colour = {near(0.25), near(0.5), near(1)},
-                           .alpha = near(0.125),
-                           .length = near(length),
-                           .opacity = near(0.125 * length)});
+    ray.samples.push_back(
+        {.index = i,
+         .position = {range_around(1 + 2 * (i + 0.5)), range_around(5), range_around(5)},
+         .front = {},
+         .value = range_around(0.5),
+         .colour = {range_around(0.25), range_around(0.5), range_around(1)},
+         .alpha = range_around(0.125),
+         .length = range_around(length),
+         .opacity = range_around(0.125 * length)});
   }
   return ray;
 }
@@ -36,7 +37,8 @@ std::vector<TakenSample> taken_from(const ExpectedRay& ray) {
   std::vector<TakenSample> samples;
   TakenSample sample{.transmittance = 1};
   for (const ExpectedSample& expected : ray.samples) {
-    sample.place = {expected.place[0].value, expected.place[1].value, expected.place[2].value};
+    sample.position = {expected.position[0].value, expected.position[1].value,
+                       expected.position[2].value};
     sample.value = expected.value.value;
     sample.alpha = expected.alpha->value;
     sample.length = expected.length.value;
@@ -44,7 +46,7 @@ std::vector<TakenSample> taken_from(const ExpectedRay& ray) {
     const double weight = sample.transmittance * sample.opacity;
     for (std::size_t k = 0; k < 3; ++k) {
       sample.colour[k] = expected.colour[k].value;
-      sample.gathered[k] += weight * sample.colour[k];
+      sample.accumulated[k] += weight * sample.colour[k];
     }
     sample.transmittance -= weight;
     samples.push_back(sample);
@@ -71,15 +73,15 @@ TEST(RayHistory, NamesTheFirstOperationThatDiffers) {
     EXPECT_EQ(history.first, 2);
     return history.rows[2].differs.value();
   };
-  const double off = 3 * wide;
-  EXPECT_EQ(changed([&](TakenSample& s) { s.place[1] += off; }), Operation::place);
+  const double off = 3 * tolerance;
+  EXPECT_EQ(changed([&](TakenSample& s) { s.position[1] += off; }), Operation::position);
   EXPECT_EQ(changed([&](TakenSample& s) { s.value += off; }), Operation::value);
   EXPECT_EQ(changed([&](TakenSample& s) { s.alpha -= off; }), Operation::alpha);
   EXPECT_EQ(changed([&](TakenSample& s) { s.colour[2] -= off; }), Operation::colour);
   EXPECT_EQ(changed([&](TakenSample& s) { s.length += off; }), Operation::length);
   EXPECT_EQ(changed([&](TakenSample& s) { s.opacity += off; }), Operation::opacity);
   EXPECT_EQ(changed([&](TakenSample& s) { s.transmittance += 1e-5; }), Operation::compositing);
-  EXPECT_EQ(changed([&](TakenSample& s) { s.gathered[0] += 1e-5; }), Operation::compositing);
+  EXPECT_EQ(changed([&](TakenSample& s) { s.accumulated[0] += 1e-5; }), Operation::compositing);
 }
 
 TEST(RayHistory, DistinguishesMissingFromTransparentSamples) {
@@ -90,7 +92,7 @@ TEST(RayHistory, DistinguishesMissingFromTransparentSamples) {
   // device recorded.
   RayHistory history = compare(ray, taken);
   EXPECT_EQ(history.first, 1);
-  EXPECT_EQ(history.rows[1].differs, Operation::take);
+  EXPECT_EQ(history.rows[1].differs, Operation::sampling);
   EXPECT_FALSE(history.rows[1].taken);
 
   ray.samples[1].opacity = {0, 0, 0};
@@ -102,11 +104,11 @@ TEST(RayHistory, FindsSamplesBeyondTheEndAndTakenTwice) {
   const ExpectedRay ray = four_samples();
   std::vector<TakenSample> taken = taken_from(ray);
   taken.push_back(taken.back());
-  taken.back().place[0] += 2;
+  taken.back().position[0] += 2;
   EXPECT_EQ(compare(ray, taken).first, 4);
   taken = taken_from(ray);
   taken.insert(taken.begin() + 2, taken[1]);
-  EXPECT_EQ(compare(ray, taken).rows[2].differs, Operation::take);
+  EXPECT_EQ(compare(ray, taken).rows[2].differs, Operation::sampling);
 }
 
 // A ray may end early only if hardly any light is left.
@@ -124,7 +126,7 @@ TEST(RayHistory, DoesNotCompareMergedSamples) {
   ray.merges = true;
   std::vector<TakenSample> taken = taken_from(ray);
   taken.erase(taken.begin() + 1, taken.begin() + 3);
-  taken[0].place[0] += 1;  // the middle of three merged steps
+  taken[0].position[0] += 1;  // the middle of three merged steps
   taken[0].length = 6;
   const RayHistory history = compare(ray, taken);
   EXPECT_EQ(history.first, 3) << "the light after the last sample is that of another ray";

@@ -32,15 +32,15 @@ const Values star_temperature{
     4.37, 4.56, 4.26, 4.56, 4.30, 4.46, 3.84, 4.57, 4.26, 4.37, 3.49, 4.43, 4.48, 4.01, 4.29, 4.42,
     4.23, 4.42, 4.23, 3.49, 4.29, 4.29, 4.42, 4.49, 4.38, 4.42, 4.29, 4.38, 4.22, 3.48, 4.38, 4.56,
     4.45, 3.49, 4.23, 4.62, 4.53, 4.45, 4.53, 4.43, 4.38, 4.45, 4.50, 4.45, 4.55, 4.45, 4.42};
-const Values star_light{5.23, 5.74, 4.93, 5.74, 5.19, 5.46, 4.65, 5.27, 5.57, 5.12, 5.73, 5.45,
-                        5.42, 4.05, 4.26, 4.58, 3.94, 4.18, 4.18, 5.89, 4.38, 4.22, 4.42, 4.85,
-                        5.02, 4.66, 4.66, 4.90, 4.39, 6.05, 4.42, 5.10, 5.22, 6.29, 4.34, 5.62,
-                        5.10, 5.22, 5.18, 5.57, 4.62, 5.06, 5.34, 5.34, 5.54, 4.98, 4.50};
+const Values star_luminosity{5.23, 5.74, 4.93, 5.74, 5.19, 5.46, 4.65, 5.27, 5.57, 5.12, 5.73, 5.45,
+                             5.42, 4.05, 4.26, 4.58, 3.94, 4.18, 4.18, 5.89, 4.38, 4.22, 4.42, 4.85,
+                             5.02, 4.66, 4.66, 4.90, 4.39, 6.05, 4.42, 5.10, 5.22, 6.29, 4.34, 5.62,
+                             5.10, 5.22, 5.18, 5.57, 4.62, 5.06, 5.34, 5.34, 5.54, 4.98, 4.50};
 
 // Rousseeuw & Leroy (1987), table 1: international calls from Belgium in tens of millions, 1950 to
 // 1973. For six of these years, minutes were reported instead of calls.
-const Values calls{0.44, 0.47, 0.47, 0.59, 0.66, 0.73, 0.81, 0.88, 1.06, 1.20, 1.35, 1.49,
-                   1.61, 2.12, 11.9, 12.4, 14.2, 15.9, 18.2, 21.2, 4.30, 2.40, 2.70, 2.90};
+const Values phone_calls{0.44, 0.47, 0.47, 0.59, 0.66, 0.73, 0.81, 0.88, 1.06, 1.20, 1.35, 1.49,
+                         1.61, 2.12, 11.9, 12.4, 14.2, 15.9, 18.2, 21.2, 4.30, 2.40, 2.70, 2.90};
 Values call_years() {
   Values years;
   for (int year = 50; year <= 73; ++year) years.push_back(year);
@@ -60,10 +60,10 @@ TEST(LeastSquares, FitsTheSameLineToAnscombesFourSets) {
 
 TEST(LeastSquares, IsAffectedByOutliers) {
   // Rousseeuw & Leroy, chapter 2: −0.413 and 6.793 for the stars, 0.504 and −26.01 for the calls.
-  const Line stars = least_squares(star_temperature, star_light).line;
+  const Line stars = least_squares(star_temperature, star_luminosity).line;
   EXPECT_NEAR(stars.slope, -0.413, 0.0005);
   EXPECT_NEAR(stars.intercept, 6.793, 0.0006);
-  const Line phone = least_squares(call_years(), calls).line;
+  const Line phone = least_squares(call_years(), phone_calls).line;
   EXPECT_NEAR(phone.slope, 0.504, 0.0005);
   EXPECT_NEAR(phone.intercept, -26.01, 0.005);
 }
@@ -71,7 +71,7 @@ TEST(LeastSquares, IsAffectedByOutliers) {
 TEST(RobustLine, FollowsTheMainSequenceOfTheStars) {
   // The expected values are MM-estimates for the data set starsCYG, computed by R's package
   // robustbase with the two bisquare functions that robust_line() also uses.
-  const RobustLine fit = robust_line(star_temperature, star_light);
+  const RobustLine fit = robust_line(star_temperature, star_luminosity);
   EXPECT_NEAR(fit.line.slope, 2.253, 0.001);
   EXPECT_NEAR(fit.line.intercept, -4.969, 0.005);
   EXPECT_NEAR(fit.scale, 0.4715, 0.0005);
@@ -84,7 +84,7 @@ TEST(RobustLine, FollowsTheMainSequenceOfTheStars) {
 TEST(RobustLine, IgnoresTheYearsInMinutes) {
   // Venables & Ripley (2002), "Modern Applied Statistics with S", section 6.5: MM-estimates of
   // 1.1009 and −52.42 if calls are counted in millions. Here, the unit is ten million calls.
-  const RobustLine fit = robust_line(call_years(), calls);
+  const RobustLine fit = robust_line(call_years(), phone_calls);
   EXPECT_NEAR(fit.line.slope, 0.1101, 0.0002);
   EXPECT_NEAR(fit.line.intercept, -5.242, 0.01);
   for (std::size_t i = 14; i < 20; ++i) EXPECT_EQ(fit.weights[i], 0) << i;
@@ -99,9 +99,9 @@ TEST(RobustLine, IsLeastSquaresWithoutOutliers) {
     y.push_back(3 + 0.5 * i + 0.1 * std::sin(2.4 * i));
   }
   const RobustLine robust = robust_line(x, y);
-  const LeastSquares plain = least_squares(x, y);
-  EXPECT_NEAR(robust.line.slope, plain.line.slope, 0.3 * plain.slope_error);
-  EXPECT_NEAR(robust.slope_error, plain.slope_error, 0.25 * plain.slope_error);
+  const LeastSquares ordinary = least_squares(x, y);
+  EXPECT_NEAR(robust.line.slope, ordinary.line.slope, 0.3 * ordinary.slope_error);
+  EXPECT_NEAR(robust.slope_error, ordinary.slope_error, 0.25 * ordinary.slope_error);
   double sum = 0;
   for (const double h : robust.leverages) sum += h;
   EXPECT_NEAR(sum, 2, 0.2);  // the number of parameters, changed slightly by the weights
@@ -124,8 +124,8 @@ TEST(RobustLine, WithstandsAlmostHalfOutliers) {
   Values y;
   for (int i = 0; i < 100; ++i) {
     x.push_back(0.05 * i);
-    const bool wild = i % 20 < 9;  // 45 % of the points are outliers
-    y.push_back(wild ? 20 - 3 * x.back() : 1 + 1.1 * x.back() + 0.02 * std::sin(37.0 * i));
+    const bool is_outlier = i % 20 < 9;  // 45 % of the points are outliers
+    y.push_back(is_outlier ? 20 - 3 * x.back() : 1 + 1.1 * x.back() + 0.02 * std::sin(37.0 * i));
   }
   const RobustLine fit = robust_line(x, y);
   EXPECT_NEAR(fit.line.slope, 1.1, 0.01);

@@ -27,7 +27,7 @@ accuracy::AccuracyScene some_scene() {
   scene.limit = "ball of 64";
   scene.scene = "data=ball <1>,viewport=64";
   scene.data = "ball <1>";
-  scene.nothing = 1;
+  scene.empty_image_error = 1;
   scene.cases = {at("1", 1e6, 1e-3), at("0.5", 2e6, 2.5e-4), at("0.25", 4e6, 6.25e-5),
                  at("0.125", 8e6, 0), at("2", 3e6, 4e-3)};
   accuracy::evaluate(scene);
