@@ -152,8 +152,8 @@ report::BugReport report_of(const OneFrame& frame, const reduction::Reduction& r
                            .frames = reduction.frames,
                            .complete = reduction.complete,
                            .files = {}};
-  for (const auto& [factor, from, to, number] :
-       reduction::changes(frame.suite, frame.plan.configurations.front(), reduction.smallest)) {
+  for (const auto& [factor, from, to, number] : reduction::changed_levels(
+           frame.suite, frame.plan.configurations.front(), reduction.smallest)) {
     report.changes.push_back({factor, from, to});
   }
   return report;
@@ -290,7 +290,7 @@ core::ExitCode reduce_sequence(const Search& search, const Beginning& beginning)
   report::BugReport report;
   const auto fails_after = [&](const reduction::Positions& positions) {
     report.frames += static_cast<int>(positions.size()) + 1;
-    const auto now = search.trial.after(beginning.at(positions), frame);
+    const auto now = search.trial.draw_after(beginning.at(positions), frame);
     if (!now || (failure && !reduction::is_same_kind(*now, *failure))) return false;
     failure = now;
     return true;
@@ -310,7 +310,7 @@ core::ExitCode reduce_sequence(const Search& search, const Beginning& beginning)
   }
   report.complete = sequence->complete;
   const std::vector<measure::Configuration> before = beginning.at(sequence->before);
-  const auto again = search.trial.after(before, frame);
+  const auto again = search.trial.draw_after(before, frame);
   if (!again || !reduction::is_same_kind(*again, *failure)) {
     throw core::NotSupported(report::words::fails_differently(*failure, again));
   }
@@ -341,8 +341,8 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   }
   reduction::Trial trial(frame.suite, frame.device, other, options, truths, store);
   const Search search{arguments, frame, store, truths, trial, out};
-  const reduction::FirstFrames first = trial.first(start);
-  if (!first.first) {
+  const reduction::FirstFrames first = trial.draw_first(start);
+  if (!first.first_failure) {
     if (beginning) return reduce_sequence(search, *beginning);
     put("the frame does not fail on {}, so there is nothing to reduce; if it failed in a plan, add "
         "--after PLAN\n",
@@ -350,10 +350,11 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
     return core::ExitCode::pass;
   }
   if (!first.repeats()) {
-    throw core::NotSupported(report::words::fails_differently(*first.first, first.again));
+    throw core::NotSupported(
+        report::words::fails_differently(*first.first_failure, first.second_failure));
   }
-  say("{}: {}\n", frame.device, report::words::text_of(*first.again));
-  return reduce_frame(search, *first.again);
+  say("{}: {}\n", frame.device, report::words::text_of(*first.second_failure));
+  return reduce_frame(search, *first.second_failure);
 }
 
 }  // namespace

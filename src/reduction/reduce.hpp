@@ -14,7 +14,7 @@ namespace triptych::reduction {
 
 // A function that draws a configuration and returns how it fails. It returns nullopt if the
 // configuration does not fail or cannot be drawn.
-using Try = std::function<std::optional<Failure>(const measure::Configuration&)>;
+using Attempt = std::function<std::optional<Failure>(const measure::Configuration&)>;
 
 // The replacement of a level with a simpler level.
 struct Step {
@@ -37,13 +37,13 @@ struct Reduction {
 // accepted. The result depends only on the results of `attempt`, which is called at most once per
 // configuration.
 [[nodiscard]] Reduction reduce(const measure::Suite& suite, const measure::Configuration& start,
-                               const Failure& first, int most_frames, const Try& attempt,
+                               const Failure& first, int most_frames, const Attempt& attempt,
                                const std::function<void(const Step&)>& on_step);
 
 // Returns the first and the last level of each factor that changed, in the suite's order of
 // factors.
-[[nodiscard]] std::vector<Step> changes(const measure::Suite& suite,
-                                        const measure::Configuration& start,
-                                        const measure::Configuration& smallest);
+[[nodiscard]] std::vector<Step> changed_levels(const measure::Suite& suite,
+                                               const measure::Configuration& start,
+                                               const measure::Configuration& smallest);
 
 }  // namespace triptych::reduction

@@ -15,7 +15,7 @@ using Positions = std::vector<std::size_t>;
 
 // A function that draws the configurations at these positions and then the frame, all in one new
 // process. Returns whether the frame fails.
-using TryAfter = std::function<bool(const Positions&)>;
+using FailsAfter = std::function<bool(const Positions&)>;
 
 struct Sequence {
   Positions before;
@@ -28,7 +28,7 @@ struct Sequence {
 // `most_frames` frames, but always tries the whole list. Calls `on_shorter` with the length of each
 // shorter sequence that it finds. Returns nullopt if the frame does not fail after the whole list.
 [[nodiscard]] std::optional<Sequence> shortest_sequence(
-    std::size_t count, std::size_t most_frames, const TryAfter& fails_after,
+    std::size_t count, std::size_t most_frames, const FailsAfter& fails_after,
     const std::function<void(std::size_t)>& on_shorter);
 
 }  // namespace triptych::reduction

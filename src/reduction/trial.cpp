@@ -13,9 +13,9 @@ Trial::Trial(const measure::Suite& suite, const std::string& device, const std::
       }) {
   replace_worker_();
   if (other.empty()) return;
-  measure::RunOptions healthy = options;
-  healthy.faults.clear();
-  other_.emplace(suite, other, store, healthy, interrupts_);
+  measure::RunOptions without_faults = options;
+  without_faults.faults.clear();
+  other_.emplace(suite, other, store, without_faults, interrupts_);
 }
 
 std::optional<Failure> Trial::operator()(const measure::Configuration& configuration) {
@@ -23,8 +23,8 @@ std::optional<Failure> Trial::operator()(const measure::Configuration& configura
   return failure_of(last_, evidence(configuration));
 }
 
-std::optional<Failure> Trial::after(std::span<const measure::Configuration> before,
-                                    const measure::Configuration& configuration) {
+std::optional<Failure> Trial::draw_after(std::span<const measure::Configuration> before,
+                                         const measure::Configuration& configuration) {
   frames_.reset();
   replace_worker_();
   for (const measure::Configuration& each : before) static_cast<void>(frames_->draw(each));
@@ -45,25 +45,26 @@ Evidence Trial::evidence(const measure::Configuration& configuration) {
   return evidence;
 }
 
-FirstFrames Trial::first(const measure::Configuration& start) {
-  FirstFrames frames{.first = (*this)(start), .again = {}};
+FirstFrames Trial::draw_first(const measure::Configuration& start) {
+  FirstFrames frames{.first_failure = (*this)(start), .second_failure = {}};
   if (last_.outcome == record::Outcome::skipped) record::require_measured(last_);
-  if (frames.first) frames.again = (*this)(start);
+  if (frames.first_failure) frames.second_failure = (*this)(start);
   return frames;
 }
 
 std::chrono::seconds limit_by_first_frame(const measure::Suite& suite, const std::string& device,
                                           const measure::Configuration& start,
                                           measure::RunOptions options, record::Store& store) {
-  constexpr std::chrono::seconds least{20};
-  constexpr int times_as_long = 3;
+  constexpr std::chrono::seconds least_limit{20};
+  constexpr int limit_factor = 3;
   options.limit = record::standard_limit;
   measure::InterruptGuard interrupts;
   measure::SingleFrames frames(suite, device, store, options, interrupts);
-  const measure::Stopwatch taken;
+  const measure::Stopwatch stopwatch;
   const record::Record first = frames.draw(start);
-  if (first.outcome == record::Outcome::hung) return least;
-  return std::max(least, std::chrono::ceil<std::chrono::seconds>(times_as_long * taken.elapsed()));
+  if (first.outcome == record::Outcome::hung) return least_limit;
+  return std::max(least_limit,
+                  std::chrono::ceil<std::chrono::seconds>(limit_factor * stopwatch.elapsed()));
 }
 
 }  // namespace triptych::reduction

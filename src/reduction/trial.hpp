@@ -18,10 +18,12 @@ namespace triptych::reduction {
 // The results of drawing the frame with which a search begins. It is drawn twice if it fails,
 // because a failure that does not repeat cannot be reduced.
 struct FirstFrames {
-  std::optional<Failure> first;  // nullopt: the frame is correct and was drawn only once
-  std::optional<Failure> again;
+  std::optional<Failure> first_failure;  // nullopt: the frame is correct and was drawn only once
+  std::optional<Failure> second_failure;
 
-  [[nodiscard]] bool repeats() const { return first && again && is_same_kind(*again, *first); }
+  [[nodiscard]] bool repeats() const {
+    return first_failure && second_failure && is_same_kind(*second_failure, *first_failure);
+  }
 };
 
 // Draws configurations. All arguments of the constructor must outlive this object.
@@ -36,12 +38,12 @@ class Trial {
 
   // Draws `start`, the configuration with which a search begins, and draws it again if it fails.
   // Throws record::NotMeasured if it was skipped.
-  [[nodiscard]] FirstFrames first(const measure::Configuration& start);
+  [[nodiscard]] FirstFrames draw_first(const measure::Configuration& start);
 
   // Draws the configurations of `before` and then `configuration`, all in a new worker process, and
   // returns how the last one fails.
-  std::optional<Failure> after(std::span<const measure::Configuration> before,
-                               const measure::Configuration& configuration);
+  std::optional<Failure> draw_after(std::span<const measure::Configuration> before,
+                                    const measure::Configuration& configuration);
 
   [[nodiscard]] const record::Record& last() const noexcept { return last_; }
   [[nodiscard]] record::Device device() const { return frames_->device(); }

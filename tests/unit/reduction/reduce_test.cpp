@@ -28,7 +28,7 @@ class Reduce : public testing::Test {
   [[nodiscard]] Reduction reduce_from(const Configuration& start,
                                       const std::function<bool(const Configuration&)>& fails,
                                       int most_frames = 1000) const {
-    const Try attempt = [&](const Configuration& each) -> std::optional<Failure> {
+    const Attempt attempt = [&](const Configuration& each) -> std::optional<Failure> {
       if (!fails(each)) return std::nullopt;
       return wrong;
     };
@@ -77,7 +77,7 @@ TEST_F(Reduce, FactorsAreTriedAgainAfterOthersWereSimplified) {
 
 TEST_F(Reduce, AnotherKindOfFailureDoesNotCount) {
   const Configuration start = configuration({});
-  const Try attempt = [](const Configuration&) {
+  const Attempt attempt = [](const Configuration&) {
     return Failure{.cause = judge::Cause::ended, .outcome = record::Outcome::crashed};
   };
   const Reduction result = reduce(*suite, start, wrong, 1000, attempt, [](const Step&) {});
@@ -102,7 +102,7 @@ TEST_F(Reduce, NoFrameIsDrawnTwiceAndNoneBeyondTheLimit) {
 TEST_F(Reduce, ChangesContainFirstAndLastLevels) {
   const Configuration start = configuration({});
   const Configuration smallest = configuration({{"skip", {"none"}}, {"viewport", {"1"}}});
-  EXPECT_THAT(changes(*suite, start, smallest),
+  EXPECT_THAT(changed_levels(*suite, start, smallest),
               ElementsAre(Field(&Step::factor, "skip"), Field(&Step::factor, "viewport")));
 }
 

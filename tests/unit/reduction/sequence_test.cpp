@@ -10,17 +10,17 @@
 namespace triptych::reduction {
 namespace {
 
-// Returns the result for a frame that fails after all configurations in `culprits`. Checks that no
+// Returns the result for a frame that fails after all configurations in `needed`. Checks that no
 // sequence is tried twice.
-std::optional<Sequence> search(std::size_t count, const std::set<std::size_t>& culprits,
+std::optional<Sequence> search(std::size_t count, const std::set<std::size_t>& needed,
                                std::size_t most_frames, std::size_t& frames) {
   std::set<Positions> tried;
   frames = 0;
-  const TryAfter fails_after = [&](const Positions& before) {
+  const FailsAfter fails_after = [&](const Positions& before) {
     EXPECT_TRUE(tried.insert(before).second);
     EXPECT_TRUE(std::ranges::is_sorted(before));
     frames += before.size() + 1;
-    return std::ranges::includes(before, culprits);
+    return std::ranges::includes(before, needed);
   };
   return shortest_sequence(count, most_frames, fails_after, [](std::size_t) {});
 }
@@ -29,16 +29,16 @@ TEST(ShortestSequence, FindsExactlyTheConfigurationsThatAreNeeded) {
   core::Random random(5);
   for (int round = 0; round < 300; ++round) {
     const auto count = 1 + static_cast<std::size_t>(random.uniform() * 60);
-    std::set<std::size_t> culprits;
+    std::set<std::size_t> needed;
     const int number = 1 + static_cast<int>(random.uniform() * 4);
     for (int i = 0; i < number; ++i) {
-      culprits.insert(static_cast<std::size_t>(random.uniform() * static_cast<double>(count)));
+      needed.insert(static_cast<std::size_t>(random.uniform() * static_cast<double>(count)));
     }
     std::size_t frames = 0;
-    const auto found = search(count, culprits, 1000000, frames);
+    const auto found = search(count, needed, 1000000, frames);
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->complete);
-    EXPECT_EQ(found->before, Positions(culprits.begin(), culprits.end()));
+    EXPECT_EQ(found->before, Positions(needed.begin(), needed.end()));
   }
 }
 
@@ -48,12 +48,12 @@ TEST(ShortestSequence, FindsExactlyTheConfigurationsThatAreNeeded) {
 // 5n frames.
 TEST(ShortestSequence, ASingleCulpritIsFoundWithFewFrames) {
   constexpr std::size_t count = 1000;
-  for (const std::size_t culprit : {std::size_t{0}, count / 2, count - 1}) {
+  for (const std::size_t needed : {std::size_t{0}, count / 2, count - 1}) {
     std::size_t frames = 0;
-    const auto found = search(count, {culprit}, 1000000, frames);
+    const auto found = search(count, {needed}, 1000000, frames);
     ASSERT_TRUE(found);
-    EXPECT_EQ(found->before, Positions{culprit});
-    EXPECT_LE(frames, 5 * count) << culprit;
+    EXPECT_EQ(found->before, Positions{needed});
+    EXPECT_LE(frames, 5 * count) << needed;
   }
 }
 

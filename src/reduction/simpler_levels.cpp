@@ -1,4 +1,4 @@
-#include "reduction/plainer.hpp"
+#include "reduction/simpler_levels.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,15 +16,15 @@ namespace {
 // A level that ends with the side lengths of an image or a volume. "generate:mandelbulb:96" has the
 // name "generate:mandelbulb:" and the sides {96}, and "256x128" has the name "" and the sides {256,
 // 128}.
-struct Sized {
+struct SizedLevel {
   std::string name;
   std::vector<int> sides;
 };
 
-std::optional<Sized> parse_sized(const std::string& level) {
+std::optional<SizedLevel> parse_sized_level(const std::string& level) {
   const std::size_t colon = level.rfind(':');
   const std::size_t begin = colon == std::string::npos ? 0 : colon + 1;
-  Sized sized{level.substr(0, begin), {}};
+  SizedLevel sized{level.substr(0, begin), {}};
   const char* at = level.data() + begin;
   const char* const end = level.data() + level.size();
   for (;;) {
@@ -38,7 +38,7 @@ std::optional<Sized> parse_sized(const std::string& level) {
   }
 }
 
-std::string text_of(const Sized& sized) {
+std::string text_of(const SizedLevel& sized) {
   const bool equal =
       std::ranges::all_of(sized.sides, [&](int side) { return side == sized.sides.front(); });
   return sized.name + (equal ? fmt::to_string(sized.sides.front())
@@ -60,21 +60,21 @@ std::vector<int> smaller_sizes(int size) {
   return {sizes.begin(), sizes.end()};
 }
 
-std::vector<std::string> smaller(const Sized& sized, std::size_t dimensions) {
+std::vector<std::string> smaller_levels(const SizedLevel& sized, std::size_t dimensions) {
   std::vector<std::string> levels;
   const int longest = *std::ranges::max_element(sized.sides);
   for (const int size : smaller_sizes(longest)) {
-    Sized all = sized;
-    for (int& side : all.sides) side = std::min(side, size);
-    levels.push_back(text_of(all));
+    SizedLevel shrunk = sized;
+    for (int& side : shrunk.sides) side = std::min(side, size);
+    levels.push_back(text_of(shrunk));
   }
-  Sized each = sized;
+  SizedLevel each = sized;
   if (each.sides.size() == 1) each.sides.resize(dimensions, each.sides.front());
   for (std::size_t i = 0; i < each.sides.size() && each.sides.size() > 1; ++i) {
     for (const int size : smaller_sizes(each.sides[i])) {
-      Sized one = each;
-      one.sides[i] = size;
-      levels.push_back(text_of(one));
+      SizedLevel changed = each;
+      changed.sides[i] = size;
+      levels.push_back(text_of(changed));
     }
   }
   return levels;
@@ -82,7 +82,7 @@ std::vector<std::string> smaller(const Sized& sized, std::size_t dimensions) {
 
 }  // namespace
 
-std::vector<std::string> plainer(const measure::Factor& factor, const std::string& level) {
+std::vector<std::string> simpler_levels(const measure::Factor& factor, const std::string& level) {
   std::vector<std::string> levels;
   if (factor.kind == measure::FactorKind::choice) {
     levels.assign(factor.levels.begin(), std::ranges::find(factor.levels, level));
@@ -97,7 +97,8 @@ std::vector<std::string> plainer(const measure::Factor& factor, const std::strin
   const bool is_data = factor.name == "data";
   if (is_data || factor.name == "viewport") {
     constexpr std::size_t axes = 3;
-    if (const auto sized = parse_sized(level)) return smaller(*sized, is_data ? axes : 2);
+    if (const auto sized = parse_sized_level(level))
+      return smaller_levels(*sized, is_data ? axes : 2);
   }
   if (level != factor.standard) levels.push_back(factor.standard);
   return levels;

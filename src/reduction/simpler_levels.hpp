@@ -17,7 +17,7 @@ namespace triptych::reduction {
 //                             default if the data has no size
 //   for any other factor      the default
 // The factor may not accept all of these levels. Suite::check() decides which are valid.
-[[nodiscard]] std::vector<std::string> plainer(const measure::Factor& factor,
-                                               const std::string& level);
+[[nodiscard]] std::vector<std::string> simpler_levels(const measure::Factor& factor,
+                                                      const std::string& level);
 
 }  // namespace triptych::reduction
