@@ -307,17 +307,17 @@ TEST_F(AcceptTest, MemoryIsStoredPerDevice) {
 
 TEST_F(AcceptTest, DataThatChangedSinceTheRunAreRejected) {
   add_run("a", [](record::Record& record, core::Image&) { record.data_hash = "0a0a"; });
-  const auto now = [](const std::string& hash) {
+  const auto with_current_hash = [](const std::string& hash) {
     return AcceptRequest{.data_hash = [hash](const record::Record&) { return hash; }};
   };
   try {
-    (void)accept_run("a", now("1b1b"));
+    (void)accept_run("a", with_current_hash("1b1b"));
     FAIL() << "no exception was thrown";
   } catch (const core::InputError& error) {
     EXPECT_THAT(error.what(), HasSubstr("content hash 0a0a, now 1b1b"));
   }
   EXPECT_FALSE(std::filesystem::exists(baseline("images.json")));
-  (void)accept_run("a", now("0a0a"));
+  (void)accept_run("a", with_current_hash("0a0a"));
   EXPECT_EQ(read(baseline("images.json"))[front_]["data"], "0a0a");
 }
 
@@ -364,12 +364,12 @@ TEST_F(AcceptTest, DamagedBaselinesAreNotExtended) {
 class WholeAcceptTest : public AcceptTest {
  protected:
   // Returns the content of every file below the root folder of the baselines.
-  [[nodiscard]] std::map<std::string, std::string> everything() const {
+  [[nodiscard]] std::map<std::string, std::string> all_files() const {
     std::map<std::string, std::string> files;
     for (const auto& entry :
          std::filesystem::recursive_directory_iterator(folder_.path() / "baselines" / "volume")) {
-      const bool aside = entry.path().string().find(".accepting") != std::string::npos;
-      if (entry.is_regular_file() && !aside) files[entry.path()] = text_of(entry.path());
+      const bool is_staged = entry.path().string().find(".accepting") != std::string::npos;
+      if (entry.is_regular_file() && !is_staged) files[entry.path()] = text_of(entry.path());
     }
     return files;
   }
@@ -385,7 +385,7 @@ class WholeAcceptTest : public AcceptTest {
 TEST_F(WholeAcceptTest, AKillAtAnyStepChangesNothing) {
   accept_first();
   add_changed_run();
-  const auto before = everything();
+  const auto before = all_files();
   const int steps = static_cast<int>(before.size()) + 1;
   for (int step = 0; step < steps; ++step) {
     const pid_t child = ::fork();
@@ -399,7 +399,7 @@ TEST_F(WholeAcceptTest, AKillAtAnyStepChangesNothing) {
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
     ASSERT_EQ(WEXITSTATUS(status), 42) << step;
-    ASSERT_EQ(everything(), before) << step;
+    ASSERT_EQ(all_files(), before) << step;
   }
   EXPECT_EQ(gate("accepted").exit_code(), core::ExitCode::pass) << text(gate("accepted"));
   (void)accept_run("b");
@@ -412,22 +412,22 @@ TEST_F(WholeAcceptTest, AKillAtAnyStepChangesNothing) {
 TEST_F(WholeAcceptTest, AnErrorWhileWritingChangesNothing) {
   accept_first();
   add_changed_run();
-  const auto before = everything();
-  const auto full = [](const std::string& file) {
+  const auto before = all_files();
+  const auto fail_on_manifest = [](const std::string& file) {
     if (file == "manifest.json") throw core::IoError("disk full");
   };
-  EXPECT_THROW((void)accept_run("b", {.on_written = full}), core::IoError);
-  EXPECT_EQ(everything(), before);
+  EXPECT_THROW((void)accept_run("b", {.on_written = fail_on_manifest}), core::IoError);
+  EXPECT_EQ(all_files(), before);
 }
 
 TEST_F(WholeAcceptTest, OnlyOneAcceptRunsAtATime) {
   accept_first();
   add_changed_run();
-  const auto meanwhile = [&](const std::string& file) {
+  const auto accept_meanwhile = [&](const std::string& file) {
     if (!file.empty()) return;
     EXPECT_THROW((void)accept_run("accepted"), core::IoError);
   };
-  (void)accept_run("b", {.on_written = meanwhile});
+  (void)accept_run("b", {.on_written = accept_meanwhile});
   EXPECT_EQ(gate("b").exit_code(), core::ExitCode::pass) << text(gate("b"));
 }
 

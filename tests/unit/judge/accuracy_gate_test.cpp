@@ -67,7 +67,7 @@ class AccuracyGateTest : public JudgeTest {
     record.plan = plan;
     record.scene = front_;
     record.technique = "raycast";
-    record.device = of_steps;
+    record.device = step_device;
     record.configuration = fmt::format("step={},technique=raycast", step);
     record.factors = {{"data", "ball"}, {"step", fmt::format("{}", step)}};
     record.outcome = record::Outcome::measured;
@@ -80,7 +80,7 @@ class AccuracyGateTest : public JudgeTest {
   }
 
   // Returns a change that shifts the image of one configuration on one device.
-  static Tweak moved(float by) {
+  static Tweak shifted_on_lavapipe(float by) {
     return [by](record::Record& record, core::Image& image) {
       if (record.device == "vulkan:lavapipe" && record.configuration == plain_) {
         image = shifted(image, by);
@@ -88,7 +88,7 @@ class AccuracyGateTest : public JudgeTest {
     };
   }
 
-  static constexpr const char* of_steps = "vulkan:lavapipe";
+  static constexpr const char* step_device = "vulkan:lavapipe";
 
  private:
   std::map<std::string, accuracy::LimitImage> limits_;
@@ -150,7 +150,7 @@ TEST_F(AccuracyGateTest, TimesOfADeviceComeFromOneClock) {
 TEST_F(AccuracyGateTest, ALargerErrorIsARegression) {
   add_run("a");
   accept_with_errors("a");
-  add_run("b", moved(-bound / 2));
+  add_run("b", shifted_on_lavapipe(-bound / 2));
   const auto regressions = with(gate("b"), Verdict::regression, Check::accuracy);
   ASSERT_EQ(regressions.size(), 1U);
   EXPECT_EQ(regressions[0].device, "vulkan:lavapipe");
@@ -162,7 +162,7 @@ TEST_F(AccuracyGateTest, ALargerErrorIsARegression) {
 TEST_F(AccuracyGateTest, ASmallerErrorPasses) {
   add_run("a");
   accept_with_errors("a");
-  add_run("b", moved(lattice / 2));
+  add_run("b", shifted_on_lavapipe(lattice / 2));
   EXPECT_TRUE(with(gate("b"), Verdict::regression, Check::accuracy).empty());
 }
 
@@ -186,7 +186,7 @@ TEST_F(AccuracyGateTest, ANewDeviceIsComparedWithTheWorstAcceptedError) {
     stored.replace(place, 15, "vulkan:other");
   }
   rewrite("accuracy.json", stored);
-  add_run("b", moved(-bound / 2));
+  add_run("b", shifted_on_lavapipe(-bound / 2));
   add_run("c");
   EXPECT_EQ(with(gate("b"), Verdict::regression, Check::accuracy).size(), 1U);
   EXPECT_TRUE(with(gate("c"), Verdict::regression, Check::accuracy).empty());
@@ -202,7 +202,7 @@ TEST_F(AccuracyGateTest, ALowerOrderIsARegression) {
   const auto run_of_order = [this](const std::string& run, double order) {
     store_.add_run({run, plan, "2026-02-01T00:00:00Z", {}, checks_});
     record::Device device;
-    device.id = of_steps;
+    device.id = step_device;
     store_.add_device(run, device, {});
     for (const double step : {1.0, 0.5, 0.25, 0.125, 0.0625}) add_step(run, step, order);
   };
@@ -211,10 +211,10 @@ TEST_F(AccuracyGateTest, ALowerOrderIsARegression) {
   run_of_order("b", 2);
   EXPECT_TRUE(with(gate("b"), Verdict::regression).empty()) << text(gate("b"));
   run_of_order("c", 1.95);
-  const auto fallen = with(gate("c"), Verdict::regression, Check::accuracy);
-  ASSERT_EQ(fallen.size(), 1U) << text(gate("c"));
-  EXPECT_NEAR(fallen[0].number("order"), 1.95, 5e-3);
-  EXPECT_NEAR(fallen[0].number("stored_order"), 2, 5e-3);
+  const auto lower = with(gate("c"), Verdict::regression, Check::accuracy);
+  ASSERT_EQ(lower.size(), 1U) << text(gate("c"));
+  EXPECT_NEAR(lower[0].number("order"), 1.95, 5e-3);
+  EXPECT_NEAR(lower[0].number("stored_order"), 2, 5e-3);
   // This reference image is so far from the images that hardly any error comes from the step size.
   // An order of convergence can therefore not be determined.
   request_.truth = [](const record::Record& record) {
@@ -232,19 +232,19 @@ TEST_F(AccuracyGateTest, ConfigurationsThatCannotBeJudgedAreReported) {
   add_run("a");
   accept_with_errors("a");
   const std::size_t all = with(gate("a"), Verdict::pass).size();
-  const auto is_meant = [](const record::Record& record) {
-    return record.device == of_steps && record.configuration == plain_;
+  const auto is_selected = [](const record::Record& record) {
+    return record.device == step_device && record.configuration == plain_;
   };
   const auto copy_with_image = [&](const std::string& run, const std::string& hash) {
     store_.add_run({run, plan, "2026-02-02T00:00:00Z", {}});
     for (const auto& entry : store_.devices("a")) store_.add_device(run, entry.device, {});
     for (record::Record record : store_.records("a")) {
       record.run = run;
-      if (is_meant(record)) record.image = hash;
+      if (is_selected(record)) record.image = hash;
       store_.add_record(record);
     }
   };
-  const auto undecided = [&](const std::string& run) {
+  const auto undecided_cause = [&](const std::string& run) {
     const GateResult result = gate(run);
     EXPECT_EQ(with(result, Verdict::pass).size(), all - 1) << text(result);
     const auto findings = with(result, Verdict::cannot_judge, Check::accuracy);
@@ -252,13 +252,13 @@ TEST_F(AccuracyGateTest, ConfigurationsThatCannotBeJudgedAreReported) {
     return findings.empty() ? Cause::none : findings[0].cause;
   };
   copy_with_image("lost", "0123");
-  EXPECT_EQ(undecided("lost"), Cause::unknown_error);
+  EXPECT_EQ(undecided_cause("lost"), Cause::unknown_error);
   copy_with_image("without", "");
-  EXPECT_EQ(undecided("without"), Cause::no_image);
+  EXPECT_EQ(undecided_cause("without"), Cause::no_image);
   request_.limit = [&](const record::Record& record) {
-    return is_meant(record) ? nullptr : limit_of(record);
+    return is_selected(record) ? nullptr : limit_of(record);
   };
-  EXPECT_EQ(undecided("a"), Cause::no_limit_any_more);
+  EXPECT_EQ(undecided_cause("a"), Cause::no_limit_any_more);
 }
 
 TEST_F(AccuracyGateTest, APlanWithoutLimitsDoesNotPass) {
@@ -272,12 +272,12 @@ TEST_F(AccuracyGateTest, APlanWithoutLimitsDoesNotPass) {
 TEST_F(AccuracyGateTest, OnlyAccuracyPlansAreJudgedByDefault) {
   add_run("a");
   accept_with_errors("a");
-  GateRequest unasked = request_;
-  unasked.checks.clear();
-  EXPECT_FALSE(gate("a", unasked).accuracies.empty());
+  GateRequest default_request = request_;
+  default_request.checks.clear();
+  EXPECT_FALSE(gate("a", default_request).accuracies.empty());
   checks_ = {Check::image};
   add_run("b");
-  EXPECT_TRUE(gate("b", unasked).accuracies.empty());
+  EXPECT_TRUE(gate("b", default_request).accuracies.empty());
 }
 
 }  // namespace

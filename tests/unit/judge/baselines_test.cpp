@@ -28,7 +28,7 @@ class BaselinesTest : public JudgeTest {
     });
   }
   // Returns the problem that the gate reports for all baselines of the plan.
-  std::string verdict() {
+  std::string problem() {
     const GateResult result = gate("accepted");
     EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
     const auto findings = with(result, Verdict::cannot_judge);
@@ -38,7 +38,7 @@ class BaselinesTest : public JudgeTest {
     EXPECT_EQ(findings[0].advice.advice, Advice::restore_baselines);
     return findings[0].detail;
   }
-  std::vector<std::string> names() const {
+  std::vector<std::string> file_names() const {
     std::vector<std::string> result;
     const Manifest manifest = Baselines(folder_.path() / "baselines", plan).manifest();
     for (const auto& [name, hash] : manifest.files) result.push_back(name);
@@ -50,41 +50,41 @@ TEST_F(BaselinesTest, UnchangedFilesPass) {
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
   // The manifest lists at least 4 files of the plan itself, 2 images, 3 files each with the costs
   // and the times of a device, and 2 files with statistics.
-  EXPECT_GE(names().size(), 4U + 2 + 3 + 3 + 2);
+  EXPECT_GE(file_names().size(), 4U + 2 + 3 + 3 + 2);
 }
 
 TEST_F(BaselinesTest, EveryMissingFileIsReported) {
-  for (const std::string& name : names()) {
+  for (const std::string& name : file_names()) {
     const std::string kept = folder_.read(baseline(name));
     std::filesystem::remove(baseline(name));
-    EXPECT_THAT(verdict(), HasSubstr(name + " is missing"));
+    EXPECT_THAT(problem(), HasSubstr(name + " is missing"));
     core::write_file(kept, baseline(name));
   }
 }
 
 TEST_F(BaselinesTest, EveryEmptiedFileIsReported) {
-  for (const std::string& name : names()) {
+  for (const std::string& name : file_names()) {
     const std::string kept = folder_.read(baseline(name));
     core::write_file(std::string_view("{}"), baseline(name));
-    EXPECT_THAT(verdict(), HasSubstr(name + " was changed after it was accepted"));
+    EXPECT_THAT(problem(), HasSubstr(name + " was changed after it was accepted"));
     core::write_file(kept, baseline(name));
   }
 }
 
 TEST_F(BaselinesTest, AFileThatWasNotAcceptedIsReported) {
   core::write_file(std::string_view("{}"), baseline("timings/other.json"));
-  EXPECT_THAT(verdict(), HasSubstr("timings/other.json does not belong to the baselines"));
+  EXPECT_THAT(problem(), HasSubstr("timings/other.json does not belong to the baselines"));
 }
 
 TEST_F(BaselinesTest, WithoutAManifestNothingIsJudged) {
   std::filesystem::remove(baseline("manifest.json"));
-  EXPECT_THAT(verdict(), HasSubstr("manifest.json is missing"));
+  EXPECT_THAT(problem(), HasSubstr("manifest.json is missing"));
 }
 
 TEST_F(BaselinesTest, ABrokenManifestIsReportedWithItsLine) {
   core::write_file(std::string_view("{\n \"files\": {},\n \"files\": {}\n}\n"),
                    baseline("manifest.json"));
-  EXPECT_THAT(verdict(), HasSubstr("manifest.json:3:"));
+  EXPECT_THAT(problem(), HasSubstr("manifest.json:3:"));
   (void)accept_run("accepted", {.drop = true});
   EXPECT_EQ(gate("accepted").exit_code(), ExitCode::pass) << text(gate("accepted"));
 }
@@ -109,7 +109,7 @@ TEST_F(BaselinesTest, ImagesAreStillJudgedWithoutBaselines) {
 
 // Checks the baselines in Triptych's own repository, which a careless merge of two branches could
 // damage.
-TEST(OurBaselines, AreComplete) {
+TEST(CommittedBaselines, AreComplete) {
   const std::filesystem::path root = std::filesystem::path(TRIPTYCH_SOURCE_FOLDER) / "baselines";
   int plans = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {

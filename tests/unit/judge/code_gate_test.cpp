@@ -194,10 +194,10 @@ TEST_F(CodeGateTest, AnotherDriverVersionIsReportedInTotals) {
   add_run("b", compiled([](record::Record& record) {
             record.code = with_changes({{"Instructions", 700}});
           }));
-  const auto told = with(gate("b"), Verdict::advisory, Check::code);
-  ASSERT_EQ(told.size(), 3U);
-  EXPECT_EQ(told[0].cause, Cause::other_compiler);
-  EXPECT_EQ(told[0].changes.at(0).name, "Instrs");
+  const auto advisories = with(gate("b"), Verdict::advisory, Check::code);
+  ASSERT_EQ(advisories.size(), 3U);
+  EXPECT_EQ(advisories[0].cause, Cause::other_compiler);
+  EXPECT_EQ(advisories[0].changes.at(0).name, "Instrs");
   EXPECT_EQ(with(gate("b"), Verdict::regression).size(), 0U);
 }
 

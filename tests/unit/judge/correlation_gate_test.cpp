@@ -5,8 +5,8 @@
 
 #include <map>
 
-#include "correlation_world.hpp"
 #include "report/exports/verdict_json.hpp"
+#include "synthetic_run.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -19,7 +19,7 @@ constexpr const char* pocl = "opencl:pocl";
 const std::string chosen = "camera=c1,data=d2,step=1,technique=t3";
 
 // Returns the findings about a configuration or a level, without those about a device as a whole.
-std::vector<Finding> named(const CorrelationFindings& result) {
+std::vector<Finding> specific_findings(const CorrelationFindings& result) {
   std::vector<Finding> findings;
   for (const Finding& finding : result.findings) {
     if (!finding.configuration.empty() || !finding.subject.empty()) findings.push_back(finding);
@@ -33,9 +33,9 @@ std::size_t count(const CorrelationFindings& result, Verdict verdict) {
 
 TEST(AcceptedDevices, JitterWithinTheBoundsIsIgnored) {
   for (std::uint64_t trial = 0; trial < 300; ++trial) {
-    CorrelationWorld world(trial);
-    for (const char* id : {lavapipe, llvmpipe, pocl}) world.add_device(id, true);
-    const CorrelationFindings result = world.judge();
+    SyntheticRun run(trial);
+    for (const char* id : {lavapipe, llvmpipe, pocl}) run.add_device(id, true);
+    const CorrelationFindings result = run.judge();
     ASSERT_EQ(count(result, Verdict::pass), 3U) << trial << '\n' << text(result);
     ASSERT_EQ(result.findings.size(), 3U) << trial << '\n' << text(result);
   }
@@ -43,24 +43,24 @@ TEST(AcceptedDevices, JitterWithinTheBoundsIsIgnored) {
 
 // Shows that the previous test can fail: jitter beyond its bound must be reported.
 TEST(AcceptedDevices, JitterBeyondTheBoundIsReported) {
-  CorrelationWorld world(1);
-  world.add_device(lavapipe, true);
-  world.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.01));
-  EXPECT_EQ(named(world.judge()).size(), 1U) << text(world.judge());
+  SyntheticRun run(1);
+  run.add_device(lavapipe, true);
+  run.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.01));
+  EXPECT_EQ(specific_findings(run.judge()).size(), 1U) << text(run.judge());
 }
 
 TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsReportedFirst) {
   for (std::uint64_t trial = 0; trial < 34; ++trial) {
     for (const char* id : {lavapipe, llvmpipe, pocl}) {
-      CorrelationWorld world(trial);
+      SyntheticRun run(trial);
       for (const char* each : {lavapipe, llvmpipe, pocl}) {
         // The injected slowdown is 0.5 % of the frame's cost, of which 70 % is device code.
         const auto injected =
-            id == each ? on_configuration(chosen, 1 + 0.005 / 0.7) : CorrelationWorld::Change{};
-        world.add_device(each, true, 0.1, injected);
+            id == each ? on_configuration(chosen, 1 + 0.005 / 0.7) : SyntheticRun::Change{};
+        run.add_device(each, true, 0.1, injected);
       }
-      const CorrelationFindings result = world.judge();
-      const auto found = named(result);
+      const CorrelationFindings result = run.judge();
+      const auto found = specific_findings(result);
       ASSERT_EQ(found.size(), 1U) << text(result);
       EXPECT_EQ(found[0].verdict, Verdict::regression);
       EXPECT_EQ(found[0].device, id);
@@ -75,21 +75,21 @@ TEST(AcceptedDevices, HalfAPercentOfOneConfigurationIsReportedFirst) {
 // the cost. The slowdown exceeds the sum of the two devices' bounds on driver jitter, so it is
 // found.
 TEST(AcceptedDevices, ASlowdownOfTheDriverIsFoundOnPocl) {
-  CorrelationWorld world(3);
-  world.add_device(lavapipe, true);
-  world.add_device(pocl, true, 0.02, {}, on_configuration(chosen, 1 + 0.0075 / 0.3));
-  const auto found = named(world.judge());
-  ASSERT_EQ(found.size(), 1U) << text(world.judge());
+  SyntheticRun run(3);
+  run.add_device(lavapipe, true);
+  run.add_device(pocl, true, 0.02, {}, on_configuration(chosen, 1 + 0.0075 / 0.3));
+  const auto found = specific_findings(run.judge());
+  ASSERT_EQ(found.size(), 1U) << text(run.judge());
   EXPECT_EQ(found[0].device, pocl);
 }
 
 TEST(AcceptedDevices, AQuarterPercentOfALevelIsOneFinding) {
   for (std::uint64_t trial = 0; trial < 100; ++trial) {
-    CorrelationWorld world(trial);
-    world.add_device(pocl, true, 0.1, on_level("data", "d2", 1 + 0.0025 / 0.7));
-    world.add_device(lavapipe, true, 0.1);
-    const CorrelationFindings result = world.judge();
-    const auto found = named(result);
+    SyntheticRun run(trial);
+    run.add_device(pocl, true, 0.1, on_level("data", "d2", 1 + 0.0025 / 0.7));
+    run.add_device(lavapipe, true, 0.1);
+    const CorrelationFindings result = run.judge();
+    const auto found = specific_findings(result);
     ASSERT_EQ(found.size(), 1U) << text(result);
     EXPECT_EQ(found[0].device, pocl);
     EXPECT_EQ(found[0].subject, "data=d2");
@@ -99,14 +99,14 @@ TEST(AcceptedDevices, AQuarterPercentOfALevelIsOneFinding) {
 }
 
 TEST(AcceptedDevices, AGeneralChangeIsReportedOnceBesideOutliers) {
-  CorrelationWorld world(5);
+  SyntheticRun run(5);
   const auto injected = [](const record::Record& r) {
     return r.configuration == chosen ? 1.2 : 1.02;
   };
-  world.add_device(lavapipe, true, 0.02, injected);
-  world.add_device(llvmpipe, true);
-  const CorrelationFindings result = world.judge();
-  const auto found = named(result);
+  run.add_device(lavapipe, true, 0.02, injected);
+  run.add_device(llvmpipe, true);
+  const CorrelationFindings result = run.judge();
+  const auto found = specific_findings(result);
   ASSERT_EQ(found.size(), 2U) << text(result);
   EXPECT_EQ(found[0].subject, "everything");
   EXPECT_EQ(found[0].number("configurations"), 96);
@@ -115,10 +115,10 @@ TEST(AcceptedDevices, AGeneralChangeIsReportedOnceBesideOutliers) {
 }
 
 TEST(AcceptedDevices, LessIsAnImprovement) {
-  CorrelationWorld world(6);
-  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 0.9));
-  world.add_device(llvmpipe, true);
-  const auto found = named(world.judge());
+  SyntheticRun run(6);
+  run.add_device(lavapipe, true, 0.02, on_configuration(chosen, 0.9));
+  run.add_device(llvmpipe, true);
+  const auto found = specific_findings(run.judge());
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].verdict, Verdict::improved);
 }
@@ -126,31 +126,30 @@ TEST(AcceptedDevices, LessIsAnImprovement) {
 // If a code change affects both devices equally, it does not change their residual, which is the
 // logarithm of the ratio of their costs. The check `cost` finds it instead.
 TEST(AcceptedDevices, EqualChangesLeaveTheResidualUnchanged) {
-  CorrelationWorld world(7);
-  world.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));
-  world.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.5));
-  EXPECT_TRUE(named(world.judge()).empty()) << text(world.judge());
+  SyntheticRun run(7);
+  run.add_device(lavapipe, true, 0.02, {}, on_configuration(chosen, 1.5));
+  run.add_device(llvmpipe, true, 0.02, {}, on_configuration(chosen, 1.5));
+  EXPECT_TRUE(specific_findings(run.judge()).empty()) << text(run.judge());
 }
 
 // If a run measured only one device, this device is compared with the stored costs of the others.
 TEST(AcceptedDevices, ASingleDeviceIsComparedWithStoredCosts) {
-  CorrelationWorld world(8);
-  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
-  world.add_device(llvmpipe, true);
-  world.input().devices.erase(llvmpipe);
-  std::erase_if(world.input().records,
-                [](const record::Record* r) { return r->device == llvmpipe; });
-  const auto found = named(world.judge());
-  ASSERT_EQ(found.size(), 1U) << text(world.judge());
+  SyntheticRun run(8);
+  run.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
+  run.add_device(llvmpipe, true);
+  run.input().devices.erase(llvmpipe);
+  std::erase_if(run.input().records, [](const record::Record* r) { return r->device == llvmpipe; });
+  const auto found = specific_findings(run.judge());
+  ASSERT_EQ(found.size(), 1U) << text(run.judge());
   EXPECT_EQ(found[0].configuration, chosen);
 }
 
 TEST(AcceptedDevices, CountsByAnotherCounterAreNotCompared) {
-  CorrelationWorld world(9);
-  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
-  world.add_device(llvmpipe, true);
-  for (auto& [key, stored] : world.input().stored) stored.counted_by = "another emulator";
-  const CorrelationFindings result = world.judge();
+  SyntheticRun run(9);
+  run.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.01));
+  run.add_device(llvmpipe, true);
+  for (auto& [key, stored] : run.input().stored) stored.counted_by = "another emulator";
+  const CorrelationFindings result = run.judge();
   EXPECT_EQ(count(result, Verdict::regression), 0U) << text(result);
   EXPECT_THAT(text(result), HasSubstr("no_partner"));
 }
@@ -162,21 +161,21 @@ struct Trials {
   int wrong = 0;
 };
 
-Trials new_devices(const CorrelationWorld::Change& injected, const std::string& configuration,
-                   const std::string& level, double scatter, std::uint64_t runs = 100) {
+Trials run_trials(const SyntheticRun::Change& injected, const std::string& configuration,
+                  const std::string& level, double scatter, std::uint64_t runs = 100) {
   Trials trials;
   for (std::uint64_t trial = 0; trial < runs; ++trial) {
-    CorrelationWorld world(1000 + trial);
-    world.add_device(lavapipe, true, 0);
-    world.add_device(llvmpipe, false, scatter, injected, injected);
-    bool hit = false;
-    for (const Finding& finding : named(world.judge())) {
+    SyntheticRun run(1000 + trial);
+    run.add_device(lavapipe, true, 0);
+    run.add_device(llvmpipe, false, scatter, injected, injected);
+    bool was_found = false;
+    for (const Finding& finding : specific_findings(run.judge())) {
       EXPECT_EQ(finding.verdict, Verdict::advisory);
       const bool right = finding.configuration == configuration && finding.subject == level;
-      hit = hit || right;
+      was_found = was_found || right;
       if (!right) ++trials.wrong;
     }
-    if (hit) ++trials.found;
+    if (was_found) ++trials.found;
   }
   return trials;
 }
@@ -186,16 +185,16 @@ Trials new_devices(const CorrelationWorld::Change& injected, const std::string& 
 // slowdown of 10 % is 4.8 standard deviations. To keep 99 % of the reports correct, 4 standard
 // deviations are required. With a scatter of 1.5 %, almost all slowdowns are found.
 TEST(NewDevice, TenPercentOfOneConfiguration) {
-  const Trials wide = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.02);
+  const Trials wide = run_trials(on_configuration(chosen, 1.1), chosen, "", 0.02);
   EXPECT_GE(wide.found, 60);
   EXPECT_LE(wide.wrong, 3);
-  const Trials narrow = new_devices(on_configuration(chosen, 1.1), chosen, "", 0.015);
+  const Trials narrow = run_trials(on_configuration(chosen, 1.1), chosen, "", 0.015);
   EXPECT_GE(narrow.found, 95);
   EXPECT_LE(narrow.wrong, 3);
 }
 
 TEST(NewDevice, ThreePercentOfALevel) {
-  const Trials trials = new_devices(on_level("data", "d2", 1.03), "", "data=d2", 0.02);
+  const Trials trials = run_trials(on_level("data", "d2", 1.03), "", "data=d2", 0.02);
   EXPECT_GE(trials.found, 95);
   EXPECT_LE(trials.wrong, 3);
 }
@@ -203,43 +202,42 @@ TEST(NewDevice, ThreePercentOfALevel) {
 // If 1 % of the trials have a false report, 5 are expected in 500 trials. An earlier experiment had
 // 14 false reports in 1,500 trials.
 TEST(NewDevice, NothingInjected) {
-  const Trials trials = new_devices({}, "none", "none", 0.02, 500);
+  const Trials trials = run_trials({}, "none", "none", 0.02, 500);
   EXPECT_LE(trials.wrong, 10);
 }
 
 TEST(NewDevice, UncorrelatedCostsAreRejected) {
-  CorrelationWorld world(10);
-  world.add_device(lavapipe, true, 0);
-  world.add_device(llvmpipe, false, 1);
-  const CorrelationFindings result = world.judge();
+  SyntheticRun run(10);
+  run.add_device(lavapipe, true, 0);
+  run.add_device(llvmpipe, false, 1);
+  const CorrelationFindings result = run.judge();
   ASSERT_EQ(result.findings.size(), 2U) << text(result);
   EXPECT_THAT(text(result), HasSubstr("no_line"));
-  EXPECT_TRUE(named(result).empty());
+  EXPECT_TRUE(specific_findings(result).empty());
 }
 
 // If two devices were accepted, a line is fitted to the costs of the new device as a function of
 // the costs of each accepted device. The new device is compared with the accepted device around
 // whose line the costs scatter less.
 TEST(NewDevice, IsComparedWithTheDeviceOfLeastScatter) {
-  CorrelationWorld world(11);
-  world.add_device(lavapipe, true, 0.1);
-  world.add_device(pocl, true, 0.01);
-  world.add_device(llvmpipe, false, 0, on_configuration(chosen, 1.3));
-  const auto found = named(world.judge());
-  ASSERT_EQ(found.size(), 1U) << text(world.judge());
+  SyntheticRun run(11);
+  run.add_device(lavapipe, true, 0.1);
+  run.add_device(pocl, true, 0.01);
+  run.add_device(llvmpipe, false, 0, on_configuration(chosen, 1.3));
+  const auto found = specific_findings(run.judge());
+  ASSERT_EQ(found.size(), 1U) << text(run.judge());
   EXPECT_EQ(found[0].cause, Cause::off_the_line);
   EXPECT_EQ(found[0].fact("other"), "opencl:pocl");
 }
 
 TEST(NewDevice, StoredCostsOfADeviceThatIsNotInTheRun) {
-  CorrelationWorld world(12);
-  world.add_device(lavapipe, true, 0);
-  world.add_device(llvmpipe, false, 0.01, on_configuration(chosen, 1.3));
-  world.input().devices.erase(lavapipe);
-  std::erase_if(world.input().records,
-                [](const record::Record* r) { return r->device == lavapipe; });
-  const CorrelationFindings result = world.judge();
-  const auto found = named(result);
+  SyntheticRun run(12);
+  run.add_device(lavapipe, true, 0);
+  run.add_device(llvmpipe, false, 0.01, on_configuration(chosen, 1.3));
+  run.input().devices.erase(lavapipe);
+  std::erase_if(run.input().records, [](const record::Record* r) { return r->device == lavapipe; });
+  const CorrelationFindings result = run.judge();
+  const auto found = specific_findings(result);
   ASSERT_EQ(found.size(), 1U) << text(result);
   EXPECT_EQ(found[0].configuration, chosen);
   ASSERT_EQ(result.pairs.size(), 1U);
@@ -247,11 +245,11 @@ TEST(NewDevice, StoredCostsOfADeviceThatIsNotInTheRun) {
 }
 
 TEST(Pairs, ByCostAndByTimeWithTheirOutliers) {
-  CorrelationWorld world(13);
-  world.with_times = true;
-  world.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.1));
-  world.add_device(llvmpipe, true);
-  const CorrelationFindings result = world.judge();
+  SyntheticRun run(13);
+  run.with_times = true;
+  run.add_device(lavapipe, true, 0.02, on_configuration(chosen, 1.1));
+  run.add_device(llvmpipe, true);
+  const CorrelationFindings result = run.judge();
   ASSERT_EQ(result.pairs.size(), 2U);
   EXPECT_EQ(result.pairs[0].signal, "cost");
   EXPECT_EQ(result.pairs[1].signal, "time");
@@ -271,14 +269,14 @@ TEST(Pairs, ByCostAndByTimeWithTheirOutliers) {
 }
 
 TEST(Pairs, ADeviceWithoutCostIsOmitted) {
-  CorrelationWorld world(14);
-  world.with_times = true;
-  world.add_device(lavapipe, true);
-  world.add_device(llvmpipe, true);
-  for (const record::Record* record : world.input().records) {
+  SyntheticRun run(14);
+  run.with_times = true;
+  run.add_device(lavapipe, true);
+  run.add_device(llvmpipe, true);
+  for (const record::Record* record : run.input().records) {
     if (record->device == llvmpipe) const_cast<record::Record*>(record)->cost.clear();
   }
-  const CorrelationFindings result = world.judge();
+  const CorrelationFindings result = run.judge();
   EXPECT_THAT(text(result), HasSubstr("skipped gl:llvmpipe-egl  : not_reported"));
   EXPECT_EQ(result.pairs.size(), 1U)
       << "without a cost, only the times of the two devices can be compared";

@@ -79,10 +79,10 @@ TEST_F(CostGateTest, CountsOfTwoEmulatorsAreNotJudged) {
     record.cost["device_code"] *= 2;
   }));
   EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
-  const auto told = with(result, Verdict::cannot_judge, Check::cost);
-  ASSERT_EQ(told.size(), 3U);
-  EXPECT_EQ(told[0].cause, Cause::two_counters);
-  EXPECT_NE(told[0].fact("counted_by"), told[0].fact("other"));
+  const auto unjudged = with(result, Verdict::cannot_judge, Check::cost);
+  ASSERT_EQ(unjudged.size(), 3U);
+  EXPECT_EQ(unjudged[0].cause, Cause::two_counters);
+  EXPECT_NE(unjudged[0].fact("counted_by"), unjudged[0].fact("other"));
 }
 
 TEST_F(CostGateTest, OneInstructionLessIsAnImprovement) {

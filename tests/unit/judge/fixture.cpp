@@ -108,14 +108,14 @@ void JudgeTest::add_run(const std::string& run, const Tweak& tweak) {
   }
 }
 
-std::vector<std::string> JudgeTest::accept_run(const std::string& run, AcceptRequest how) {
-  how.plan = plan;
-  how.reason = "a test";
-  how.date = "2026-02-01";
-  if (!how.truth) {
-    how.truth = [](const record::Record& record) { return truth_of(record.scene); };
+std::vector<std::string> JudgeTest::accept_run(const std::string& run, AcceptRequest request) {
+  request.plan = plan;
+  request.reason = "a test";
+  request.date = "2026-02-01";
+  if (!request.truth) {
+    request.truth = [](const record::Record& record) { return truth_of(record.scene); };
   }
-  return accept(store_, run, folder_.path() / "baselines", how);
+  return accept(store_, run, folder_.path() / "baselines", request);
 }
 
 void JudgeTest::accept_first(const Tweak& tweak) {
@@ -175,7 +175,7 @@ Change change_of(const Observation& observation, const std::string& name) {
   return {};
 }
 
-bool has(const std::vector<Observation>& because, Cause cause) {
+bool has_cause(const std::vector<Observation>& because, Cause cause) {
   return std::ranges::find(because, cause, &Observation::cause) != because.end();
 }
 

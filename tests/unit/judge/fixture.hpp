@@ -33,9 +33,9 @@ class JudgeTest : public testing::Test {
 
   // Adds twelve measured records. Times have 0.5 % noise around a mean for each configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
-  // Accepts a run. `how` supplies all settings except the plan, the reason, the date and the
+  // Accepts a run. `request` supplies all settings except the plan, the reason, the date and the
   // reference image.
-  std::vector<std::string> accept_run(const std::string& run, AcceptRequest how = {});
+  std::vector<std::string> accept_run(const std::string& run, AcceptRequest request = {});
   // Adds and accepts a run with the id "accepted".
   void accept_first(const Tweak& tweak = {});
   [[nodiscard]] GateResult gate(const std::string& run) const { return gate(run, request_); }
@@ -82,6 +82,6 @@ class JudgeTest : public testing::Test {
 // Returns the change of one value. The test fails if the value did not change.
 [[nodiscard]] Change change_of(const Observation& observation, const std::string& name);
 // Returns whether this cause is among the reasons for lost points.
-[[nodiscard]] bool has(const std::vector<Observation>& because, Cause cause);
+[[nodiscard]] bool has_cause(const std::vector<Observation>& because, Cause cause);
 
 }  // namespace triptych::judge

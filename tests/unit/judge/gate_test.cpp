@@ -148,14 +148,14 @@ TEST_F(GateTest, TheSuiteStatesHowManyCountsMayDifferOnAnotherDriver) {
   });
   request_.checks = {Check::counters};
   request_.devices = {"gl:*"};
-  int asked = 0;
+  int calls = 0;
   request_.open_counts = [&](const record::Record&) {
-    ++asked;
+    ++calls;
     return std::map<std::string, double>{{"samples", 25}};
   };
   add_run("same", [](record::Record& record, core::Image&) { record.counters["samples"] = 1000; });
   EXPECT_EQ(gate("same").exit_code(), ExitCode::pass) << text(gate("same"));
-  EXPECT_EQ(asked, 0);
+  EXPECT_EQ(calls, 0);
   add_run("open", [](record::Record& record, core::Image&) { record.counters["samples"] = 975; });
   EXPECT_EQ(gate("open").exit_code(), ExitCode::pass) << text(gate("open"));
   add_run("more", [](record::Record& record, core::Image&) { record.counters["samples"] = 974; });
@@ -304,17 +304,17 @@ TEST_F(GateTest, DataThatChangedSinceTheRunAreNotARegression) {
 
 // Devices prefer different voxel formats, and the hash of the same data depends on the format.
 TEST_F(GateTest, DataHasAHashPerVoxelFormat) {
-  const auto with_lavapipe_as = [](const std::string& hash) {
+  const auto with_lavapipe_hash = [](const std::string& hash) {
     return [hash](record::Record& record, core::Image&) {
       const bool floats = record.device == "vulkan:lavapipe";
       record.factors["voxel"] = floats ? "f32" : "u8";
       record.data_hash = floats ? hash : "0a0a";
     };
   };
-  accept_first(with_lavapipe_as("1b1b"));
-  add_run("b", with_lavapipe_as("1b1b"));
+  accept_first(with_lavapipe_hash("1b1b"));
+  add_run("b", with_lavapipe_hash("1b1b"));
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
-  add_run("c", with_lavapipe_as("0a0a"));
+  add_run("c", with_lavapipe_hash("0a0a"));
   EXPECT_EQ(with(gate("c"), Verdict::cannot_judge).size(), 4U);
 }
 

@@ -23,7 +23,7 @@ class KnownGateTest : public GateTest {
   }
 
   // Writes the known failures of a result to a file, and reads them back.
-  [[nodiscard]] std::vector<Waiver> written_by(const GateResult& result) const {
+  [[nodiscard]] std::vector<Waiver> rewritten_outcomes(const GateResult& result) const {
     const auto file = folder_.path() / "known.json";
     core::write_file(expected_outcomes_text(expected_outcomes_of(
                          {&result, 1}, [](const Finding&) { return "words"; })),
@@ -44,14 +44,14 @@ TEST_F(KnownGateTest, AFailureIsWaivedTheNextTime) {
   add_run("b", wrong_image_on(known_device));
   const GateResult first = gate("b");
   EXPECT_EQ(first.exit_code(), ExitCode::regression);
-  request_.expected_outcomes = written_by(first);
+  request_.expected_outcomes = rewritten_outcomes(first);
   ASSERT_THAT(*request_.expected_outcomes, SizeIs(1));
   const GateResult second = gate("b");
   EXPECT_EQ(second.exit_code(), ExitCode::pass) << text(second);
   ASSERT_THAT(with(second, Verdict::waived), SizeIs(1));
   EXPECT_EQ(with(second, Verdict::waived).at(0).excuse.kind, Excuse::Kind::known);
   // The next run writes the same file, because waived failures remain known.
-  EXPECT_EQ(expected_outcomes_text(written_by(second)),
+  EXPECT_EQ(expected_outcomes_text(rewritten_outcomes(second)),
             expected_outcomes_text(*request_.expected_outcomes));
 }
 
@@ -61,18 +61,18 @@ TEST_F(KnownGateTest, ANewFailureIsARegression) {
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
   // Failures of other configurations, devices or checks are new.
   add_run("c", wrong_image_on("opencl:pocl"));
-  request_.expected_outcomes = written_by(gate("c"));
+  request_.expected_outcomes = rewritten_outcomes(gate("c"));
   EXPECT_EQ(gate("c").exit_code(), ExitCode::pass);
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
 
 TEST_F(KnownGateTest, AnUnexpectedPassIsReported) {
   add_run("b", wrong_image_on(known_device));
-  request_.expected_outcomes = written_by(gate("b"));
-  const GateResult mended = gate("accepted");
-  EXPECT_EQ(mended.exit_code(), ExitCode::pass);
-  ASSERT_THAT(with(mended, Verdict::improved), SizeIs(1));
-  const Finding finding = with(mended, Verdict::improved).at(0);
+  request_.expected_outcomes = rewritten_outcomes(gate("b"));
+  const GateResult repaired = gate("accepted");
+  EXPECT_EQ(repaired.exit_code(), ExitCode::pass);
+  ASSERT_THAT(with(repaired, Verdict::improved), SizeIs(1));
+  const Finding finding = with(repaired, Verdict::improved).at(0);
   EXPECT_EQ(finding.excuse.kind, Excuse::Kind::unexpected);
   EXPECT_EQ(finding.excuse.outcome, ExpectedOutcome::fail);
   EXPECT_EQ(finding.advice.advice, Advice::remove_entry);
@@ -80,12 +80,12 @@ TEST_F(KnownGateTest, AnUnexpectedPassIsReported) {
 
 TEST_F(KnownGateTest, AnUnexpectedSkipDoesNotPass) {
   add_run("b", skipped_on(known_device));
-  AcceptRequest only_it;
-  only_it.only = plain_;
-  only_it.drop = true;
-  (void)accept_run("b", only_it);
+  AcceptRequest request;
+  request.only = plain_;
+  request.drop = true;
+  (void)accept_run("b", request);
   ASSERT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
-  request_.expected_outcomes = written_by(gate("b"));
+  request_.expected_outcomes = rewritten_outcomes(gate("b"));
   ASSERT_THAT(*request_.expected_outcomes, SizeIs(1));
   EXPECT_EQ(request_.expected_outcomes->front().outcome, ExpectedOutcome::skip);
   EXPECT_EQ(gate("b").exit_code(), ExitCode::pass) << text(gate("b"));
@@ -98,7 +98,7 @@ TEST_F(KnownGateTest, AnUnexpectedSkipDoesNotPass) {
 
 TEST_F(KnownGateTest, AnExpiredEntryExcusesNothing) {
   add_run("b", wrong_image_on(known_device));
-  request_.expected_outcomes = written_by(gate("b"));
+  request_.expected_outcomes = rewritten_outcomes(gate("b"));
   request_.expected_outcomes->front().expiry = request_.today;
   EXPECT_EQ(gate("b").exit_code(), ExitCode::regression);
 }
@@ -125,14 +125,14 @@ TEST_F(KnownGateTest, AFailureThatDoesNotRepeatIsAFlakeAndDoesNotPass) {
   const GateResult first = gate("b");
   const CaseSet cases = failing_cases(first);
   ASSERT_THAT(cases, SizeIs(1));
-  const SecondAttempt right = mark_flakes(first, gate("accepted"), cases);
-  EXPECT_EQ(right.flakes, cases);
-  EXPECT_EQ(right.result.exit_code(), ExitCode::regression);
-  ASSERT_THAT(with(right.result, Verdict::regression), SizeIs(1));
-  EXPECT_EQ(with(right.result, Verdict::regression).at(0).retry_result, RetryResult::flake);
-  EXPECT_THAT(right.result.findings, SizeIs(first.findings.size()));
+  const SecondAttempt attempt = mark_flakes(first, gate("accepted"), cases);
+  EXPECT_EQ(attempt.flakes, cases);
+  EXPECT_EQ(attempt.result.exit_code(), ExitCode::regression);
+  ASSERT_THAT(with(attempt.result, Verdict::regression), SizeIs(1));
+  EXPECT_EQ(with(attempt.result, Verdict::regression).at(0).retry_result, RetryResult::flake);
+  EXPECT_THAT(attempt.result.findings, SizeIs(first.findings.size()));
 
-  const std::vector<Waiver> known = written_by(right.result);
+  const std::vector<Waiver> known = rewritten_outcomes(attempt.result);
   ASSERT_THAT(known, SizeIs(1));
   EXPECT_EQ(known[0].outcome, ExpectedOutcome::flake);
   request_.expected_outcomes = known;
@@ -151,11 +151,11 @@ TEST_F(KnownGateTest, AHangThatDoesNotRepeatCannotBeJudged) {
   });
   const GateResult first = gate("b");
   EXPECT_EQ(first.exit_code(), ExitCode::regression);
-  const SecondAttempt right = mark_flakes(first, gate("accepted"), failing_cases(first));
-  EXPECT_TRUE(right.flakes.empty());
-  EXPECT_EQ(right.result.exit_code(), ExitCode::cannot_judge);
-  EXPECT_EQ(with(right.result, Verdict::cannot_judge).at(0).retry_result, RetryResult::slow);
-  EXPECT_THAT(written_by(right.result), SizeIs(0));
+  const SecondAttempt attempt = mark_flakes(first, gate("accepted"), failing_cases(first));
+  EXPECT_TRUE(attempt.flakes.empty());
+  EXPECT_EQ(attempt.result.exit_code(), ExitCode::cannot_judge);
+  EXPECT_EQ(with(attempt.result, Verdict::cannot_judge).at(0).retry_result, RetryResult::slow);
+  EXPECT_THAT(rewritten_outcomes(attempt.result), SizeIs(0));
 }
 
 // A crash is reported under the first check, which is `image` here. A configuration of
@@ -172,9 +172,9 @@ TEST_F(KnownGateTest, ACrashWithoutAnImageCanBeAFlake) {
   add_run("b", sums);
   add_run("c", sums);
   const GateResult first = gate("b");
-  const SecondAttempt right = mark_flakes(first, gate("c"), failing_cases(first));
-  EXPECT_EQ(right.flakes, failing_cases(first));
-  const auto flakes = with(right.result, Verdict::regression);
+  const SecondAttempt attempt = mark_flakes(first, gate("c"), failing_cases(first));
+  EXPECT_EQ(attempt.flakes, failing_cases(first));
+  const auto flakes = with(attempt.result, Verdict::regression);
   ASSERT_THAT(flakes, SizeIs(1));
   EXPECT_EQ(flakes[0].retry_result, RetryResult::flake);
   EXPECT_EQ(flakes[0].reason.number("signal"), 6);
@@ -184,9 +184,9 @@ TEST_F(KnownGateTest, AFailureThatIsSkippedWhenRepeatedStaysARegression) {
   add_run("b", wrong_image_on(known_device));
   add_run("c", skipped_on(known_device));
   const GateResult first = gate("b");
-  const SecondAttempt redrawn = mark_flakes(first, gate("c"), failing_cases(first));
-  EXPECT_TRUE(redrawn.flakes.empty());
-  const auto wrong = with(redrawn.result, Verdict::regression);
+  const SecondAttempt attempt = mark_flakes(first, gate("c"), failing_cases(first));
+  EXPECT_TRUE(attempt.flakes.empty());
+  const auto wrong = with(attempt.result, Verdict::regression);
   ASSERT_THAT(wrong, SizeIs(1));
   EXPECT_EQ(wrong[0].retry_result, RetryResult::other);
   ASSERT_THAT(wrong[0].retry_observations, SizeIs(1));
@@ -204,12 +204,12 @@ TEST_F(KnownGateTest, EachCheckCanBeAFlakeByItself) {
   add_run("b", miscounted);
   add_run("c", miscounted);
   const GateResult first = gate("b");
-  const SecondAttempt redrawn = mark_flakes(first, gate("c"), failing_cases(first));
-  EXPECT_THAT(redrawn.flakes, SizeIs(1));
-  const auto images = with(redrawn.result, Verdict::regression, Check::image);
+  const SecondAttempt attempt = mark_flakes(first, gate("c"), failing_cases(first));
+  EXPECT_THAT(attempt.flakes, SizeIs(1));
+  const auto images = with(attempt.result, Verdict::regression, Check::image);
   ASSERT_THAT(images, SizeIs(1));
   EXPECT_EQ(images[0].retry_result, RetryResult::flake);
-  const auto counters = with(redrawn.result, Verdict::regression, Check::counters);
+  const auto counters = with(attempt.result, Verdict::regression, Check::counters);
   ASSERT_THAT(counters, SizeIs(1));
   EXPECT_EQ(counters[0].retry_result, RetryResult::not_drawn);
 }

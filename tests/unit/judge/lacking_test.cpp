@@ -19,7 +19,7 @@ class LackingTest : public JudgeTest {
   }
 
   // Adds a run with this driver version, which skips one configuration for this cause.
-  void add_without(const std::string& run, const std::string& version, record::Cause cause) {
+  void add_run_with_skip(const std::string& run, const std::string& version, record::Cause cause) {
     driver_versions_[lavapipe] = version;
     add_run(run, [&](record::Record& record, core::Image&) {
       if (record.device != lavapipe || record.configuration != bricks_) return;
@@ -30,7 +30,7 @@ class LackingTest : public JudgeTest {
   [[nodiscard]] Verdict verdict_of_skip(const std::string& run) const {
     return with(gate(run), Cause::ended).at(0).verdict;
   }
-  [[nodiscard]] bool notes_something() const {
+  [[nodiscard]] bool has_lacking_file() const {
     return std::filesystem::exists(baseline("lacking.json"));
   }
   [[nodiscard]] core::Json stored(const std::string& name) const {
@@ -41,33 +41,33 @@ class LackingTest : public JudgeTest {
 // Counters are stored per device. A driver version that was accepted without the feature need not
 // report them, but a version that was accepted with the feature must.
 TEST_F(LackingTest, IsNotedForTheDriverVersion) {
-  add_without("22", "22", record::Cause::not_supported);
+  add_run_with_skip("22", "22", record::Cause::not_supported);
   EXPECT_EQ(verdict_of_skip("22"), Verdict::cannot_judge);
   const core::Json counters = stored("counters.json");
   (void)accept_run("22");
   EXPECT_EQ(stored("counters.json"), counters);
   EXPECT_EQ(stored("lacking.json").size(), 1U);
-  add_without("22 again", "22", record::Cause::not_supported);
+  add_run_with_skip("22 again", "22", record::Cause::not_supported);
   EXPECT_EQ(verdict_of_skip("22 again"), Verdict::skipped);
-  add_without("25", "25", record::Cause::not_supported);
+  add_run_with_skip("25", "25", record::Cause::not_supported);
   EXPECT_EQ(verdict_of_skip("25"), Verdict::cannot_judge);
   // Version 22 is now accepted with the feature, so no version lacks it any more.
   driver_versions_[lavapipe] = "22";
   add_run("22 with");
   (void)accept_run("22 with");
-  EXPECT_FALSE(notes_something());
+  EXPECT_FALSE(has_lacking_file());
 }
 
 TEST_F(LackingTest, IsNotNotedForTheOnlyVersion) {
-  add_without("same version", "25", record::Cause::not_supported);
+  add_run_with_skip("same version", "25", record::Cause::not_supported);
   (void)accept_run("same version");
-  EXPECT_FALSE(notes_something());
+  EXPECT_FALSE(has_lacking_file());
 }
 
 TEST_F(LackingTest, IsNotNotedForAnotherCause) {
-  add_without("memory", "22", record::Cause::out_of_memory);
+  add_run_with_skip("memory", "22", record::Cause::out_of_memory);
   (void)accept_run("memory");
-  EXPECT_FALSE(notes_something());
+  EXPECT_FALSE(has_lacking_file());
 }
 
 }  // namespace

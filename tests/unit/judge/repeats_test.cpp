@@ -8,13 +8,13 @@ namespace {
 const std::string device = "vulkan:some";
 
 Finding finding(const std::string& configuration, Check check, Verdict verdict) {
-  Finding made;
-  made.device = device;
-  made.configuration = configuration;
-  made.check = check;
-  made.verdict = verdict;
-  made.cause = verdict == Verdict::pass ? Cause::within_bound : Cause::pixels_over_bound;
-  return made;
+  Finding result;
+  result.device = device;
+  result.configuration = configuration;
+  result.check = check;
+  result.verdict = verdict;
+  result.cause = verdict == Verdict::pass ? Cause::within_bound : Cause::pixels_over_bound;
+  return result;
 }
 
 // Returns one repetition of a plan. The image of configuration "a" has the given verdict, and the
@@ -28,7 +28,7 @@ Repetition repetition(Verdict verdict, const std::string& image) {
   return {.results = {result}, .images = {{{"volume/quick", device, "a"}, image}}};
 }
 
-const std::vector<Repetition>& three() {
+const std::vector<Repetition>& three_repetitions() {
   static const std::vector<Repetition> repetitions{repetition(Verdict::pass, "1"),
                                                    repetition(Verdict::regression, "2"),
                                                    repetition(Verdict::pass, "1")};
@@ -36,7 +36,7 @@ const std::vector<Repetition>& three() {
 }
 
 TEST(Repeats, ContainTheWorstVerdictOfEachRepetition) {
-  const std::vector<RepeatedCase> cases = repeated_cases(three());
+  const std::vector<RepeatedCase> cases = repeated_cases(three_repetitions());
   ASSERT_EQ(cases.size(), 2U);
   EXPECT_EQ(cases[0].key.configuration, "a");
   EXPECT_EQ(cases[0].verdicts, (std::vector{Verdict::pass, Verdict::regression, Verdict::pass}));
@@ -47,9 +47,9 @@ TEST(Repeats, ContainTheWorstVerdictOfEachRepetition) {
 }
 
 TEST(Repeats, AFlakeInALaterRepetitionIsReported) {
-  std::vector<GateResult> first = three().front().results;
+  std::vector<GateResult> first = three_repetitions().front().results;
   EXPECT_EQ(first.front().findings.front().verdict, Verdict::pass);
-  add_flakes(repeated_cases(three()), first);
+  add_flakes(repeated_cases(three_repetitions()), first);
   std::size_t flakes = 0;
   for (const Finding& each : first.front().findings) {
     if (each.retry_result != RetryResult::flake) continue;

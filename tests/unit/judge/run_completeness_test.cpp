@@ -47,7 +47,7 @@ class RunCompletenessTest : public GateTest {
     core::write_file(text, folder_.path() / "baselines" / "absent.json");
   }
   // Returns the findings that could not be judged, each as "DEVICE CAUSE NAMES".
-  static std::vector<std::string> undecided(const GateResult& result) {
+  static std::vector<std::string> undecided_lines(const GateResult& result) {
     std::vector<std::string> lines;
     for (const Finding& each : with(result, Verdict::cannot_judge)) {
       lines.push_back(
@@ -75,8 +75,9 @@ TEST_F(RunCompletenessTest, ADeviceThatWasNotReachedIsReported) {
   execute_sql("DELETE FROM device WHERE run = 'run' AND id <> 'gl:llvmpipe-egl'");
   const GateResult result = gate("run");
   EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge);
-  EXPECT_THAT(undecided(result), IsSupersetOf({StartsWith("opencl:pocl missing " + bricks_),
-                                               StartsWith("vulkan:lavapipe missing " + bricks_)}));
+  EXPECT_THAT(undecided_lines(result),
+              IsSupersetOf({StartsWith("opencl:pocl missing " + bricks_),
+                            StartsWith("vulkan:lavapipe missing " + bricks_)}));
 }
 
 TEST_F(RunCompletenessTest, AConfigurationThatWasNotReachedIsReportedWithoutThePlan) {
@@ -84,14 +85,14 @@ TEST_F(RunCompletenessTest, AConfigurationThatWasNotReachedIsReportedWithoutTheP
   add_planned_run("run");
   request_.part = true;  // so that accepted configurations do not count as missing
   execute_sql("DELETE FROM record WHERE run = 'run' AND configuration = '" + plain_ + "'");
-  EXPECT_THAT(undecided(gate("run")), Contains("opencl:pocl missing " + plain_));
+  EXPECT_THAT(undecided_lines(gate("run")), Contains("opencl:pocl missing " + plain_));
 }
 
 TEST_F(RunCompletenessTest, ALostDeviceDescriptionIsReported) {
   accept_planned_run();
   add_planned_run("run");
   execute_sql("DELETE FROM device WHERE run = 'run' AND id = 'opencl:pocl'");
-  EXPECT_THAT(undecided(gate("run")), Contains(StartsWith("opencl:pocl no_description")));
+  EXPECT_THAT(undecided_lines(gate("run")), Contains(StartsWith("opencl:pocl no_description")));
 }
 
 TEST_F(RunCompletenessTest, ShorteningTheListOfPlannedConfigurationsIsDetected) {
@@ -150,14 +151,14 @@ TEST_F(RunCompletenessTest, TheReasonForAnUnmeasuredRequiredDeviceIsReported) {
 // which the missing device was accepted.
 TEST_F(RunCompletenessTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   accept_planned_run();
-  const record::Beginning without{.found = {all_devices[1], all_devices[2]},
-                                  .devices = {all_devices[1], all_devices[2]}};
-  add_planned_run("run", without);
+  const record::Beginning without_gl{.found = {all_devices[1], all_devices[2]},
+                                     .devices = {all_devices[1], all_devices[2]}};
+  add_planned_run("run", without_gl);
   execute_sql("DELETE FROM record WHERE run = 'run' AND device = 'gl:llvmpipe-egl'");
   execute_sql("DELETE FROM device WHERE run = 'run' AND id = 'gl:llvmpipe-egl'");
   const GateResult result = gate("run");
   EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge);
-  EXPECT_THAT(undecided(result), Contains(StartsWith("gl:llvmpipe-egl device_missing")));
+  EXPECT_THAT(undecided_lines(result), Contains(StartsWith("gl:llvmpipe-egl device_missing")));
 
   GateRequest excused = request_;
   excused.without_devices = {"gl:*"};
@@ -181,18 +182,18 @@ TEST_F(RunCompletenessTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
 // the run requested only some devices.
 TEST_F(RunCompletenessTest, OtherMachinesNeedNotHaveTheDevice) {
   accept_planned_run();
-  const record::Beginning asked{
+  const record::Beginning vulkan_only{
       .asked = {"vulkan:*"}, .found = {all_devices[2]}, .devices = {all_devices[2]}};
-  add_planned_run("asked", asked);
+  add_planned_run("asked", vulkan_only);
   execute_sql("DELETE FROM record WHERE run = 'asked' AND device <> 'vulkan:lavapipe'");
   execute_sql("DELETE FROM device WHERE run = 'asked' AND id <> 'vulkan:lavapipe'");
-  EXPECT_THAT(undecided(gate("asked")), IsEmpty());
+  EXPECT_THAT(undecided_lines(gate("asked")), IsEmpty());
   for (const std::string& id : all_devices) driver_versions_[id] = "99";
   const record::Beginning newer{.found = {all_devices[2]}, .devices = {all_devices[2]}};
   add_planned_run("newer", newer);
   execute_sql("DELETE FROM record WHERE run = 'newer' AND device <> 'vulkan:lavapipe'");
   execute_sql("DELETE FROM device WHERE run = 'newer' AND id <> 'vulkan:lavapipe'");
-  EXPECT_THAT(undecided(gate("newer")), testing::Not(Contains(HasSubstr("device_missing"))));
+  EXPECT_THAT(undecided_lines(gate("newer")), testing::Not(Contains(HasSubstr("device_missing"))));
 }
 
 TEST_F(RunCompletenessTest, AFailedListingCannotBeJudgedAndIsShown) {
@@ -202,7 +203,7 @@ TEST_F(RunCompletenessTest, AFailedListingCannotBeJudgedAndIsShown) {
   add_planned_run("run",
                   {.found = all_devices, .devices = all_devices, .unusable = {crashed, refused}});
   const GateResult result = gate("run");
-  EXPECT_THAT(undecided(result), Contains(StartsWith(" listing_failed")));
+  EXPECT_THAT(undecided_lines(result), Contains(StartsWith(" listing_failed")));
   EXPECT_THAT(result.unusable, SizeIs(2));
   request_.without_devices = {"vulkan"};
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass);
@@ -231,7 +232,7 @@ TEST_F(RunCompletenessTest, APlanThatLostAcceptedChecksCannotBeJudged) {
   add_planned_run("run");
   const GateResult result = gate("run");
   EXPECT_EQ(result.exit_code(), core::ExitCode::cannot_judge);
-  EXPECT_THAT(undecided(result), Contains(" checks_lost image"));
+  EXPECT_THAT(undecided_lines(result), Contains(" checks_lost image"));
   static_cast<void>(accept_run("run"));
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass) << text(gate("run"));
 }

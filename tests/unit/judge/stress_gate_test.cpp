@@ -44,7 +44,7 @@ class StressGateTest : public JudgeTest {
 
   // Accepts an unchanged run, judges a second run with the change, and returns the only finding
   // about it.
-  Finding found(const Tweak& tweak) {
+  Finding stress_finding(const Tweak& tweak) {
     add_run("accepted");
     accept_scores("accepted");
     add_run("judged", tweak);
@@ -57,7 +57,7 @@ class StressGateTest : public JudgeTest {
   }
 
   // Expects that each image equals an image with skip=distance, which no run contains.
-  void expect_the_bits_of_an_absent_configuration() {
+  void expect_equality_with_absent_configuration() {
     expected_ = [](const record::Record&) {
       return std::vector<record::Expectation>{
           {"the bits with another skip", record::SameImage{.changed = {{"skip", "distance"}}}}};
@@ -79,46 +79,46 @@ TEST_F(StressGateTest, AllPointsPass) {
 }
 
 TEST_F(StressGateTest, AnImageBeyondItsBoundLosesTwoPoints) {
-  const Finding finding =
-      found(on_lavapipe([](record::Record&, core::Image& image) { image.rgba[17] += 2 * bound; }));
+  const Finding finding = stress_finding(
+      on_lavapipe([](record::Record&, core::Image& image) { image.rgba[17] += 2 * bound; }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
   EXPECT_EQ(finding.numbers.at("score"), 1);
-  EXPECT_TRUE(has(finding.because, Cause::pixels_over_bound));
-  EXPECT_TRUE(has(finding.because, Cause::farther_device));
+  EXPECT_TRUE(has_cause(finding.because, Cause::pixels_over_bound));
+  EXPECT_TRUE(has_cause(finding.because, Cause::farther_device));
 }
 
 TEST_F(StressGateTest, WithinTheBoundOnlyAgreementIsLost) {
-  const Finding finding = found(on_lavapipe([](record::Record&, core::Image& image) {
+  const Finding finding = stress_finding(on_lavapipe([](record::Record&, core::Image& image) {
     for (float& value : image.rgba) value += bound / 2;
   }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
   EXPECT_EQ(finding.numbers.at("score"), 2);
-  EXPECT_TRUE(has(finding.because, Cause::farther_device));
+  EXPECT_TRUE(has_cause(finding.because, Cause::farther_device));
 }
 
 // The other devices are closer to the reference image, so they must not lose a point because of the
 // device that differs.
 TEST_F(StressGateTest, TheDeviceCloserToTheReferenceKeepsItsPoint) {
-  (void)found(on_lavapipe([](record::Record&, core::Image& image) {
+  (void)stress_finding(on_lavapipe([](record::Record&, core::Image& image) {
     for (float& value : image.rgba) value += bound / 2;
   }));
   EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
 }
 
 TEST_F(StressGateTest, NonFinitePixelsScoreZero) {
-  const Finding finding = found(
+  const Finding finding = stress_finding(
       on_lavapipe([](record::Record&, core::Image& image) { image.rgba[3] = std::nanf(""); }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
   EXPECT_EQ(finding.numbers.at("score"), 0);
 }
 
 TEST_F(StressGateTest, ACrashScoresZeroAndIsReportedOnce) {
-  const Finding finding = found(on_lavapipe([](record::Record& record, core::Image&) {
+  const Finding finding = stress_finding(on_lavapipe([](record::Record& record, core::Image&) {
     record.outcome = record::Outcome::crashed;
     record.reason = {.cause = record::Cause::signal, .numbers = {{"signal", 11}}};
   }));
   EXPECT_EQ(finding.numbers.at("score"), 0);
-  EXPECT_TRUE(has(finding.because, Cause::ended));
+  EXPECT_TRUE(has_cause(finding.because, Cause::ended));
   EXPECT_EQ(finding.reason.number("signal"), 11);
   EXPECT_EQ(with(gate("judged"), Verdict::regression).size(), 1U);
 }
@@ -152,12 +152,12 @@ TEST_F(StressGateTest, WithoutAStoredScoreThereIsNoVerdict) {
 }
 
 TEST_F(StressGateTest, ASelectedDeviceIsComparedWithTheOthersOfTheRun) {
-  (void)found(on_lavapipe([](record::Record&, core::Image& image) {
+  (void)stress_finding(on_lavapipe([](record::Record&, core::Image& image) {
     for (float& value : image.rgba) value += bound / 2;
   }));
-  GateRequest one = request_;
-  one.devices = {stress_device};
-  const auto lost = with(gate("judged", one), Verdict::regression, Check::stress);
+  GateRequest request = request_;
+  request.devices = {stress_device};
+  const auto lost = with(gate("judged", request), Verdict::regression, Check::stress);
   ASSERT_EQ(lost.size(), 1U);
   EXPECT_EQ(lost[0].device, stress_device);
 }
@@ -167,7 +167,7 @@ TEST_F(StressGateTest, ARefusalIsCorrectOnlyIfItIsAllowed) {
     record.outcome = record::Outcome::skipped;
     record.reason = {.cause = record::Cause::not_supported, .detail = "too large"};
   });
-  const Finding finding = found(refuse);
+  const Finding finding = stress_finding(refuse);
   EXPECT_EQ(finding.verdict, Verdict::cannot_judge);  // the accepted run drew it
   EXPECT_TRUE(finding.numbers.empty());               // no score now
   expected_ = [](const record::Record&) {
@@ -187,7 +187,7 @@ TEST_F(StressGateTest, DifferentBitsLoseAPoint) {
     }
     return result;
   };
-  const Finding finding = found(on_lavapipe([](record::Record&, core::Image& image) {
+  const Finding finding = stress_finding(on_lavapipe([](record::Record&, core::Image& image) {
     image.rgba[5] = std::nextafter(image.rgba[5], 1.0F);
   }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
@@ -204,7 +204,7 @@ TEST_F(StressGateTest, DifferentBitsLoseAPoint) {
 TEST_F(StressGateTest, APartOfAPlanNeedsNoOtherImages) {
   add_run("a");
   accept_scores("a");
-  expect_the_bits_of_an_absent_configuration();
+  expect_equality_with_absent_configuration();
   EXPECT_EQ(with(gate("a"), Verdict::regression, Check::stress).size(), 12U);
   request_.part = true;
   EXPECT_EQ(with(gate("a"), Verdict::pass, Check::stress).size(), 12U);
@@ -215,7 +215,7 @@ TEST_F(StressGateTest, APartOfAPlanNeedsNoOtherImages) {
 TEST_F(StressGateTest, AnInterruptedRunLosesNoPointsForImagesThatAreStillMissing) {
   add_run("a");
   accept_scores("a");
-  expect_the_bits_of_an_absent_configuration();
+  expect_equality_with_absent_configuration();
   std::vector<std::string> planned;
   for (const record::Record& record : store_.records("a")) planned.push_back(record.configuration);
   store_.begin("a", {}, planned);
@@ -232,7 +232,7 @@ TEST_F(StressGateTest, MoreSamplesThanAllowedLoseAPoint) {
     return std::vector<record::Expectation>{
         {"few", record::CountAtMost{.counter = "samples", .factor = 20834, .of = "rays"}}};
   };
-  const Finding finding = found(on_lavapipe(
+  const Finding finding = stress_finding(on_lavapipe(
       [](record::Record& record, core::Image&) { record.counters["samples"] = 1000033; }));
   EXPECT_EQ(finding.verdict, Verdict::regression);
   ASSERT_EQ(finding.because.size(), 1U);
@@ -245,12 +245,12 @@ TEST_F(StressGateTest, MoreSamplesThanAllowedLoseAPoint) {
 TEST_F(StressGateTest, OnlyStressPlansAreJudgedByDefault) {
   add_run("a");
   accept_scores("a");
-  GateRequest unasked = request_;
-  unasked.checks.clear();
-  EXPECT_EQ(with(gate("a", unasked), Verdict::pass, Check::stress).size(), 12U);
+  GateRequest default_request = request_;
+  default_request.checks.clear();
+  EXPECT_EQ(with(gate("a", default_request), Verdict::pass, Check::stress).size(), 12U);
   checks_ = {};
   add_run("b");
-  for (const Finding& finding : gate("b", unasked).findings) {
+  for (const Finding& finding : gate("b", default_request).findings) {
     EXPECT_NE(finding.check, Check::stress);
   }
 }
@@ -273,7 +273,7 @@ class ExpectationTest : public JudgeTest {
   }
 
   // Returns an image whose values are a function of the position and the channel.
-  static core::Image places(int w, int h, const std::function<float(int, int)>& at) {
+  static core::Image make_image(int w, int h, const std::function<float(int, int)>& at) {
     core::Image image(w, h);
     for (int y = 0; y < h; ++y) {
       for (int x = 0; x < w; ++x) {
@@ -299,53 +299,61 @@ class ExpectationTest : public JudgeTest {
     return observation.value_or(Observation{});
   }
   // Returns the number of pixels that differ.
-  double differing(const record::SameImage& rule) { return judge(rule).number("pixels_differing"); }
+  double differing_pixels(const record::SameImage& rule) {
+    return judge(rule).number("pixels_differing");
+  }
 
   std::vector<record::Record> records_;
 };
 
-float place(int x, int y) {
+float position_value(int x, int y) {
   return static_cast<float>(x + 10 * y);
 }
 
 TEST_F(ExpectationTest, AMirrorImageMatchesOnlyAlongItsAxis) {
-  add("data=a", places(width, height, place));
-  add("data=b", places(width, height, [](int x, int y) { return place(width - 1 - x, y); }));
-  add("data=c",
-      places(width, height, [](int x, int y) { return place(width - 1 - x, height - 1 - y); }));
-  EXPECT_EQ(differing({.changed = {{"data", "b"}}, .mirrored_x = true}), 0);
-  EXPECT_EQ(differing({.changed = {{"data", "c"}}, .mirrored_x = true, .mirrored_y = true}), 0);
-  EXPECT_EQ(differing({.changed = {{"data", "b"}}}), 4);
-  EXPECT_EQ(differing({.changed = {{"data", "c"}}, .mirrored_x = true}), 6);
+  add("data=a", make_image(width, height, position_value));
+  add("data=b",
+      make_image(width, height, [](int x, int y) { return position_value(width - 1 - x, y); }));
+  add("data=c", make_image(width, height, [](int x, int y) {
+        return position_value(width - 1 - x, height - 1 - y);
+      }));
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}, .mirrored_x = true}), 0);
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "c"}}, .mirrored_x = true, .mirrored_y = true}),
+            0);
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}}), 4);
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "c"}}, .mirrored_x = true}), 6);
 }
 
 TEST_F(ExpectationTest, APartIsComparedAtItsPosition) {
-  add("data=a", places(width, height, [](int x, int y) { return place(x + 2, y + 1); }));
-  add("data=b", places(6, 5, place));
+  add("data=a",
+      make_image(width, height, [](int x, int y) { return position_value(x + 2, y + 1); }));
+  add("data=b", make_image(6, 5, position_value));
   EXPECT_EQ(judge({.changed = {{"data", "b"}}, .at = {2, 1}}).cause, Cause::none);
-  EXPECT_EQ(differing({.changed = {{"data", "b"}}, .at = {1, 1}}), 6);
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}, .at = {1, 1}}), 6);
   EXPECT_EQ(judge({.changed = {{"data", "b"}}, .at = {4, 1}}).cause, Cause::not_inside);
   EXPECT_EQ(judge({.changed = {{"data", "z"}}}).cause, Cause::no_other_image);
 }
 
 TEST_F(ExpectationTest, BoundsOfBothAddUp) {
-  add("data=a", places(width, height, place));
-  add("data=b", places(width, height, [](int x, int y) { return place(x, y) + 0.5F; }));
-  add("data=c", places(width, height, [](int x, int y) { return place(x, y) + 0.75F; }));
-  EXPECT_EQ(differing({.changed = {{"data", "b"}}, .to_the_bit = false}), 0);
+  add("data=a", make_image(width, height, position_value));
+  add("data=b",
+      make_image(width, height, [](int x, int y) { return position_value(x, y) + 0.5F; }));
+  add("data=c",
+      make_image(width, height, [](int x, int y) { return position_value(x, y) + 0.75F; }));
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}, .to_the_bit = false}), 0);
   EXPECT_EQ(judge({.changed = {{"data", "c"}}, .to_the_bit = false}).fact("by"), "bounds");
 }
 
 TEST_F(ExpectationTest, ParticlesMayHaveOtherNumbers) {
-  core::Image one = places(width, height, place);
-  one.depth.assign(6, 2.0F);
-  one.ids = {0, 1, 2, 3, 4, 5};
-  core::Image other = one;
+  core::Image image = make_image(width, height, position_value);
+  image.depth.assign(6, 2.0F);
+  image.ids = {0, 1, 2, 3, 4, 5};
+  core::Image other = image;
   other.ids = {5, 4, 3, 2, 1, 0};
-  add("data=a", one);
+  add("data=a", image);
   add("data=b", other);
-  EXPECT_EQ(differing({.changed = {{"data", "b"}}, .same_ids = false}), 0);
-  EXPECT_EQ(differing({.changed = {{"data", "b"}}}), 6);
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}, .same_ids = false}), 0);
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}}), 6);
 }
 
 TEST_F(ExpectationTest, OneColourMustMatchExactly) {

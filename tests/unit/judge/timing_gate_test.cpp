@@ -18,13 +18,13 @@ class TimingGateTest : public JudgeTest {
   TimingGateTest() { request_.checks = {Check::timing}; }
 
   // Returns a change that multiplies all times by a factor, for one configuration or for all.
-  static Tweak times(double factor, const std::string& configuration = {}) {
+  static Tweak scaled_times(double factor, const std::string& configuration = {}) {
     return [=](record::Record& record, core::Image&) {
       if (!configuration.empty() && record.configuration != configuration) return;
       for (double& ns : record.wall_ns) ns *= factor;
     };
   }
-  static Tweak by_the_device(const Tweak& tweak) {
+  static Tweak with_device_clock(const Tweak& tweak) {
     return [tweak](record::Record& record, core::Image& image) {
       tweak(record, image);
       record.device_ns = record.wall_ns;
@@ -35,7 +35,7 @@ class TimingGateTest : public JudgeTest {
 
 TEST_F(TimingGateTest, TwiceAsSlowIsShownWithoutAVerdict) {
   accept_first();
-  add_run("b", times(2, bricks_));
+  add_run("b", scaled_times(2, bricks_));
   const GateResult result = gate("b");
   EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
   EXPECT_EQ(with(result, Verdict::pass, Check::timing).size(), 12U);
@@ -50,7 +50,7 @@ TEST_F(TimingGateTest, TwiceAsSlowIsShownWithoutAVerdict) {
 
 TEST_F(TimingGateTest, EveryRatioIsReported) {
   accept_first();
-  add_run("b", times(1.5));
+  add_run("b", scaled_times(1.5));
   for (const Finding& each : with(gate("b"), Verdict::pass, Check::timing)) {
     EXPECT_NEAR(each.numbers.at("ratio"), 1.5, 0.04);
     // Two runs are compared, each with a scatter of at least 0.5 %, so the interval cannot be
@@ -64,7 +64,7 @@ TEST_F(TimingGateTest, EveryRatioIsReported) {
 TEST_F(TimingGateTest, OnRequestASlowerConfigurationIsARegression) {
   accept_first();
   request_.times_decide = true;
-  add_run("b", times(1.2, bricks_));
+  add_run("b", scaled_times(1.2, bricks_));
   const GateResult result = gate("b");
   EXPECT_EQ(result.exit_code(), ExitCode::regression);
   const auto slower = with(result, Verdict::regression);
@@ -72,7 +72,7 @@ TEST_F(TimingGateTest, OnRequestASlowerConfigurationIsARegression) {
   EXPECT_EQ(slower[0].configuration, bricks_);
   EXPECT_EQ(slower[0].fact("work"), "samples");
   EXPECT_EQ(slower[0].number("work_ratio"), 1);
-  add_run("c", times(0.8, bricks_));
+  add_run("c", scaled_times(0.8, bricks_));
   EXPECT_EQ(gate("c").exit_code(), ExitCode::pass);
   EXPECT_EQ(with(gate("c"), Verdict::improved).size(), 3U);
 }
@@ -101,8 +101,8 @@ TEST_F(TimingGateTest, SpreadIncludesFramesAndClock) {
 }
 
 TEST_F(TimingGateTest, ClocksAreNotMixed) {
-  accept_first(by_the_device(times(1)));
-  add_run("wall", times(1));
+  accept_first(with_device_clock(scaled_times(1)));
+  add_run("wall", scaled_times(1));
   EXPECT_TRUE(with(gate("wall"), Verdict::pass, Check::timing).empty());
   const auto advice = with(gate("wall"), Verdict::advisory);
   ASSERT_EQ(advice.size(), 3U) << text(gate("wall"));
@@ -116,7 +116,7 @@ TEST_F(TimingGateTest, ClocksAreNotMixed) {
 TEST_F(TimingGateTest, AStoredWallTimeIsComparedWithWallTime) {
   accept_first();
   add_run("b", [](record::Record& record, core::Image& image) {
-    by_the_device(times(1))(record, image);
+    with_device_clock(scaled_times(1))(record, image);
     for (double& ns : record.device_ns) ns /= 3;
   });
   for (const Finding& each : with(gate("b"), Verdict::pass, Check::timing)) {

@@ -92,9 +92,9 @@ TEST_F(GateTest, AnExpiredWaiverWithoutUseIsReported) {
 TEST_F(GateTest, AWaiverNeedsReasonAndDate) {
   add_run("a");
   (void)accept_run("a");
-  for (const char* no_day : {"soon", "2099-13-45", "2099-02-29", "0000-00-00"}) {
-    write_waivers(no_day);
-    EXPECT_THROW((void)gate("a"), core::InputError) << no_day;
+  for (const char* invalid_date : {"soon", "2099-13-45", "2099-02-29", "0000-00-00"}) {
+    write_waivers(invalid_date);
+    EXPECT_THROW((void)gate("a"), core::InputError) << invalid_date;
   }
 }
 
@@ -105,11 +105,11 @@ TEST_F(GateTest, AWaiverThatLastsTooLongIsRejected) {
   (void)accept_run("a");
   write_waivers("2027-03-02");
   EXPECT_NO_THROW((void)gate("a"));
-  for (const char* far : {"2027-03-03", "2099-01-01", "9999-12-31"}) {
-    write_waivers(far);
+  for (const char* distant_date : {"2027-03-03", "2099-01-01", "9999-12-31"}) {
+    write_waivers(distant_date);
     try {
       (void)gate("a");
-      ADD_FAILURE() << far << " was accepted";
+      ADD_FAILURE() << distant_date << " was accepted";
     } catch (const core::InputError& error) {
       EXPECT_NE(std::string(error.what()).find("/0/expiry: is more than 366 days after 2026-03-01"),
                 std::string::npos)

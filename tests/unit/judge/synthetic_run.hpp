@@ -16,9 +16,9 @@
 namespace triptych::judge {
 
 // The plan has 96 configurations: techniques × data × steps × cameras.
-class CorrelationWorld {
+class SyntheticRun {
  public:
-  explicit CorrelationWorld(std::uint64_t seed) : random_(seed) {}
+  explicit SyntheticRun(std::uint64_t seed) : random_(seed) {}
 
   bool with_times = false;
 
@@ -90,14 +90,14 @@ class CorrelationWorld {
   CorrelationInput input_;
 };
 
-inline CorrelationWorld::Change on_configuration(const std::string& configuration, double factor) {
+inline SyntheticRun::Change on_configuration(const std::string& configuration, double factor) {
   return [=](const record::Record& record) {
     return record.configuration == configuration ? factor : 1;
   };
 }
 
-inline CorrelationWorld::Change on_level(const std::string& factor, const std::string& level,
-                                         double by) {
+inline SyntheticRun::Change on_level(const std::string& factor, const std::string& level,
+                                     double by) {
   return [=](const record::Record& record) { return record.factors.at(factor) == level ? by : 1; };
 }
 
