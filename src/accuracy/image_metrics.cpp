@@ -64,7 +64,7 @@ ImageComparison compare_with(const core::Image& image, const core::Image& truth,
     if (!is_finite(drawn) || !is_finite(expected)) {
       ++result.non_finite;
       if (core::is_nan_pixel(drawn)) ++result.not_drawn;
-      extend_rectangle(i, image.width, result.wrong);
+      extend_rectangle(i, image.width, result.wrong_area);
       continue;
     }
     ImageComparison::PixelError pixel_error{
@@ -84,7 +84,7 @@ ImageComparison compare_with(const core::Image& image, const core::Image& truth,
     }
     if (is_over_bound) {
       ++result.over_bound;
-      extend_rectangle(i, image.width, result.wrong);
+      extend_rectangle(i, image.width, result.wrong_area);
     }
     if (errors.empty() || pixel_error.ratio > result.worst.ratio) result.worst = pixel_error;
     if (errors.empty() || pixel_error.error > result.largest.error) result.largest = pixel_error;
@@ -112,7 +112,7 @@ void compare_surfaces(const core::Image& image, const core::Image& truth, const 
     const bool wrong_depth =
         id_is_certain(bound, i) && !same_depth(image.depth[i], truth.depth[i], bound.depth[i]);
     if (!wrong_id && !wrong_depth) continue;
-    extend_rectangle(i, image.width, result.wrong);
+    extend_rectangle(i, image.width, result.wrong_area);
     if (result.first_wrong.x < 0) {
       const auto width = static_cast<std::size_t>(image.width);
       result.first_wrong = {.x = static_cast<int>(i % width),

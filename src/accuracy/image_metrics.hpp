@@ -56,7 +56,7 @@ struct ImageComparison {
   std::size_t wrong_ids = 0;
   std::size_t wrong_depths = 0;
   SurfaceError first_wrong;
-  Rectangle wrong;
+  Rectangle wrong_area;
 
   [[nodiscard]] bool within_bound() const {
     return !size_mismatch && non_finite == 0 && over_bound == 0 && wrong_ids == 0 &&

@@ -228,7 +228,8 @@ class Finder {
   void code() {
     if (a_.record.code.empty() || b_.record.code.empty()) return;
     judge::CodeComparison comparison = judge::compare_code(a_.record.code, b_.record.code);
-    if (comparison.changes.empty() && comparison.gone.empty() && comparison.added.empty()) return;
+    if (comparison.changes.empty() && comparison.removed.empty() && comparison.added.empty())
+      return;
     const bool worse = comparison.direction() == judge::CodeDirection::worse;
     add(worse && same_id_ ? Kind::regression : Kind::changed, Subject::code, Cause::code_changed)
         .code = std::move(comparison);

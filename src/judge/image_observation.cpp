@@ -32,7 +32,7 @@ void add_surface(Observation& observation, const accuracy::ImageComparison::Surf
 
 // Adds the rectangle that contains all wrong pixels if it is at most half as large as the image.
 void add_place(Observation& observation, const accuracy::ImageComparison& comparison) {
-  const auto& [left, top, right, bottom] = comparison.wrong;
+  const auto& [left, top, right, bottom] = comparison.wrong_area;
   const double area = (right - left + 1.0) * (bottom - top + 1.0);
   if (left < 0 || 2 * area > static_cast<double>(comparison.pixels)) return;
   set_number(observation, "wrong_left", left);

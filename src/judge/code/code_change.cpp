@@ -171,7 +171,7 @@ CodeComparison compare_code(const record::Code& before, const record::Code& now)
     }
   }
   for (const auto& [name, executable] : before) {
-    if (!now.contains(name)) comparison.gone.push_back(name);
+    if (!now.contains(name)) comparison.removed.push_back(name);
   }
   std::ranges::stable_sort(comparison.changes, {}, [](const CodeChange& each) {
     return std::tuple(std::string_view(each.executable), each.statistic.rank,

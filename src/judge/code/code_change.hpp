@@ -46,7 +46,7 @@ enum class CodeDirection { same, other, worse, better };
 
 struct CodeComparison {
   std::vector<CodeChange> changes;       // the most important statistics first
-  std::vector<std::string> gone;         // executables that no longer exist
+  std::vector<std::string> removed;      // executables that no longer exist
   std::vector<std::string> added;        // executables that did not exist before
   std::vector<std::string> reassembled;  // executables whose disassembly changed
   // Returns whether the code got better or worse, according to all changed statistics that affect

@@ -49,7 +49,7 @@ Finding judge_error(const RunView& view, const record::Record& record,
                                           is_within_limit ? Verdict::pass : Verdict::regression,
                                           {.cause = Cause::error, .against = Against::baseline})
                           : finding_about(record, Check::accuracy, Verdict::cannot_judge,
-                                          {.cause = Cause::not_stored}, view.accept());
+                                          {.cause = Cause::not_stored}, view.accept_advice());
   set_number(finding, "rmse", error.rmse);
   set_number(finding, "max_error", error.largest);
   set_number(finding, "error_99", error.error_99);
@@ -168,7 +168,8 @@ class AccuracyCheck {
       // If no error was accepted for the configuration, its scene had no limit image before either,
       // so it needs no finding.
       if (view_.baselines.errors(record.configuration).empty()) return;
-      add(record, Verdict::cannot_judge, {.cause = Cause::no_limit_any_more}, view_.accept());
+      add(record, Verdict::cannot_judge, {.cause = Cause::no_limit_any_more},
+          view_.accept_advice());
       return;
     }
     if (record.image.empty()) {

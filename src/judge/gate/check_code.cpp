@@ -50,7 +50,7 @@ std::vector<Change> changes_of(const CodeTotals& totals) {
 // Returns whether executables were added or removed, so that the configuration cannot be compared
 // executable by executable.
 bool has_other_executables(const CodeComparison& comparison) {
-  return !comparison.gone.empty() || !comparison.added.empty();
+  return !comparison.removed.empty() || !comparison.added.empty();
 }
 
 Verdict verdict_of(const CodeComparison& comparison) {
@@ -74,7 +74,7 @@ double ratio_of(const CodeComparison& comparison) {
 }
 
 Finding judge_code(const record::Record& record, const CodeComparison& comparison,
-                   const AdviceWithCommand& accept) {
+                   const AdviceWithCommand& accept_advice) {
   Observation observation{.cause = Cause::as_stored,
                           .against = Against::baseline,
                           .numbers = {{"values", static_cast<double>(record.code.size())}}};
@@ -86,12 +86,12 @@ Finding judge_code(const record::Record& record, const CodeComparison& compariso
     observation.cause = Cause::other_executables;
     observation.numbers.clear();
   }
-  observation.names = comparison.gone;
+  observation.names = comparison.removed;
   observation.names.insert(observation.names.end(), comparison.added.begin(),
                            comparison.added.end());
   const Verdict verdict = verdict_of(comparison);
   return finding_about(record, Check::code, verdict, std::move(observation),
-                       verdict == Verdict::cannot_judge ? accept : AdviceWithCommand{});
+                       verdict == Verdict::cannot_judge ? accept_advice : AdviceWithCommand{});
 }
 
 class DeviceCodeCheck {
@@ -106,7 +106,7 @@ class DeviceCodeCheck {
     for (const record::Record* record : records_) compare(*record, findings);
     if (!not_stored_.empty()) {
       add(findings, Verdict::cannot_judge, {.cause = Cause::not_stored, .names = not_stored_},
-          view_.accept());
+          view_.accept_advice());
     }
     if (!reassembled_.empty()) {
       add(findings, Verdict::advisory, {.cause = Cause::other_disassembly, .names = reassembled_});
@@ -128,7 +128,8 @@ class DeviceCodeCheck {
       if (code.device == device_.id) other = &code;
     }
     if (other == nullptr) {
-      return add(findings, Verdict::advisory, {.cause = Cause::no_stored_device}, view_.accept());
+      return add(findings, Verdict::advisory, {.cause = Cause::no_stored_device},
+                 view_.accept_advice());
     }
     CodeTotals totals;
     for (const record::Record* record : records_) {
@@ -154,7 +155,7 @@ class DeviceCodeCheck {
       return;
     }
     const CodeComparison comparison = compare_code(stored->second, record.code);
-    findings.push_back(judge_code(record, comparison, view_.accept()));
+    findings.push_back(judge_code(record, comparison, view_.accept_advice()));
     if (comparison.changes.empty() && !comparison.reassembled.empty()) {
       reassembled_.push_back(record.configuration);
     }

@@ -90,7 +90,8 @@ class DeviceCostCheck {
       if (other == nullptr && cost.device == device_.id) other = &cost;
     }
     if (other == nullptr) {
-      return add(findings, Verdict::advisory, {.cause = Cause::no_stored_device}, view_.accept());
+      return add(findings, Verdict::advisory, {.cause = Cause::no_stored_device},
+                 view_.accept_advice());
     }
     std::vector<double> ratios;
     for (const record::Record* record : records_) {
@@ -173,7 +174,7 @@ class DeviceCostCheck {
   void report_missing(std::vector<Finding>& findings) const {
     if (!not_stored_.empty()) {
       add(findings, Verdict::cannot_judge, {.cause = Cause::not_stored, .names = not_stored_},
-          view_.accept());
+          view_.accept_advice());
     }
     if (!not_counted_.empty()) {
       add(findings, Verdict::cannot_judge,

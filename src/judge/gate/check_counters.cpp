@@ -118,7 +118,7 @@ Finding check_record(const RunView& view, const record::Record& record,
       : !differences.unknown.empty()
           ? about(Verdict::cannot_judge,
                   {.cause = Cause::unknown_values, .names = std::move(differences.unknown)},
-                  view.accept())
+                  view.accept_advice())
           : about(Verdict::pass,
                   {.cause = Cause::as_stored,
                    .against = against,
@@ -158,7 +158,7 @@ std::vector<Finding> check_counters(const RunView& view) {
     const bool known = !view.baselines.present() || view.knows_driver(info);
     findings.push_back(
         finding_about(view, info, Check::counters, known ? Verdict::cannot_judge : Verdict::skipped,
-                      {.cause = Cause::not_stored, .names = configurations}, view.accept()));
+                      {.cause = Cause::not_stored, .names = configurations}, view.accept_advice()));
   }
   return findings;
 }

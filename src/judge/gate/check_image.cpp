@@ -135,7 +135,7 @@ class SceneJudge {
     } else {
       observation.cause = Cause::not_stored;
       verdict = Verdict::cannot_judge;
-      advice = view_.accept();
+      advice = view_.accept_advice();
     }
     if (observation.cause == Cause::reference_as_stored) verdict = Verdict::pass;
     Finding finding = finding_about(view_, Check::image, verdict, std::move(observation), advice);

@@ -64,9 +64,9 @@ void report_memory_coverage(const RunView& view, const record::Device& device,
   if (coverage.not_stored.empty()) return;
   if (coverage.accepted) {
     add(Verdict::cannot_judge, {.cause = Cause::not_stored, .names = coverage.not_stored},
-        view.accept());
+        view.accept_advice());
   } else {
-    add(Verdict::advisory, {.cause = Cause::no_stored_device}, view.accept());
+    add(Verdict::advisory, {.cause = Cause::no_stored_device}, view.accept_advice());
   }
 }
 

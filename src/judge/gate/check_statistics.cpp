@@ -50,7 +50,7 @@ Finding check_exact(const RunView& view, const record::Record& record,
   }
   if (!unknown.empty()) {
     return about(Verdict::cannot_judge, {.cause = Cause::unknown_values, .names = unknown},
-                 view.accept());
+                 view.accept_advice());
   }
   const auto values = static_cast<double>(stored.size() - unsteady.size());
   return about(Verdict::pass,
@@ -157,9 +157,9 @@ class StatisticsCheck {
       findings_.push_back(other_drivers_finding(view_, view_.devices.at(device), result));
     }
     for (const auto& [device, configurations] : not_stored_) {
-      findings_.push_back(
-          finding_about(view_, view_.devices.at(device), Check::statistics, Verdict::cannot_judge,
-                        {.cause = Cause::not_stored, .names = configurations}, view_.accept()));
+      findings_.push_back(finding_about(
+          view_, view_.devices.at(device), Check::statistics, Verdict::cannot_judge,
+          {.cause = Cause::not_stored, .names = configurations}, view_.accept_advice()));
     }
     return std::move(findings_);
   }

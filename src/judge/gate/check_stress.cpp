@@ -38,10 +38,10 @@ Finding judge(const RunView& view, const ScoredRecord& scored) {
                           .numbers = {{"score", points}, {"best", best_stress_score}},
                           .outcome = record.outcome,
                           .reason = record.reason,
-                          .because = scored.score.lost};
+                          .because = scored.score.lost_points};
   if (accepted) observation.numbers["accepted"] = *accepted;
   return finding_about(record, Check::stress, verdict_of(points, accepted), std::move(observation),
-                       accepted ? AdviceWithCommand{} : view.accept());
+                       accepted ? AdviceWithCommand{} : view.accept_advice());
 }
 
 // Returns whether a planned configuration has no record on one of the devices, because the run was

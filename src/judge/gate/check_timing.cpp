@@ -64,7 +64,7 @@ class DeviceTimingCheck {
     if (!not_stored_.empty() && stored_.empty()) {
       add(missing, {.cause = Cause::no_stored_device, .facts = {{"device_key", device_.key()}}});
     } else if (!not_stored_.empty()) {
-      add(missing, {.cause = Cause::not_stored, .names = not_stored_}, view_.accept());
+      add(missing, {.cause = Cause::not_stored, .names = not_stored_}, view_.accept_advice());
     }
     if (!other_clock_.empty()) add(missing, {.cause = Cause::other_clock, .names = other_clock_});
     summarise();

@@ -212,7 +212,7 @@ void report_other_data(const RunView& view, std::vector<Finding>& findings) {
   for (const record::Record* record : view.with_other_data) {
     Observation observation = other_data(view, *record).value_or(Observation{});
     AdviceWithCommand advice = observation.cause == Cause::other_data
-                                   ? view.accept(Advice::restore_data)
+                                   ? view.accept_advice(Advice::restore_data)
                                    : AdviceWithCommand{Advice::restore_or_run_again};
     findings.push_back(finding_about(*record, *view.checks.begin(), Verdict::cannot_judge,
                                      std::move(observation), std::move(advice)));
@@ -221,7 +221,7 @@ void report_other_data(const RunView& view, std::vector<Finding>& findings) {
 
 void report_no_baselines(const RunView& view, std::vector<Finding>& findings) {
   const std::string& problem = view.baselines.problem();
-  AdviceWithCommand advice = view.accept();
+  AdviceWithCommand advice = view.accept_advice();
   if (!problem.empty()) {
     advice.advice = Advice::restore_baselines;
     advice.command += " --drop";
@@ -368,7 +368,7 @@ void report_undecided_devices(const RunView& view, GateResult& result) {
   for (const std::string& device : result.undecided_devices()) {
     result.findings.push_back(
         finding_about(view, view.devices.at(device), *view.checks.begin(), Verdict::cannot_judge,
-                      {.cause = Cause::nothing_decided}, view.accept(Advice::judge_more)));
+                      {.cause = Cause::nothing_decided}, view.accept_advice(Advice::judge_more)));
   }
 }
 

@@ -65,7 +65,7 @@ std::string RunView::today() const {
   return std::max(request.today, run.started_at.substr(0, 10));
 }
 
-AdviceWithCommand RunView::accept(Advice advice) const {
+AdviceWithCommand RunView::accept_advice(Advice advice) const {
   return {advice,
           fmt::format("triptych accept {}{}{} --reason TEXT", core::shell_quoted(argument()),
                       request.store_option, request.baselines_option)};

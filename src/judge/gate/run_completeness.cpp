@@ -154,7 +154,8 @@ void report_lost_checks(const RunView& view, std::vector<Finding>& findings) {
   }
   if (lost.empty()) return;
   findings.push_back(finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
-                                   {.cause = Cause::checks_lost, .names = lost}, view.accept()));
+                                   {.cause = Cause::checks_lost, .names = lost},
+                                   view.accept_advice()));
 }
 
 // Returns the first device that matches `glob` but was unusable in this run, or nullptr if there is

@@ -37,7 +37,7 @@ struct RunView {
   // the run, whichever is later, so that setting the clock back does not revive an expired waiver.
   [[nodiscard]] std::string today() const;
   // Returns advice with the `triptych accept` command that creates or updates the baselines.
-  [[nodiscard]] AdviceWithCommand accept(Advice advice = Advice::accept) const;
+  [[nodiscard]] AdviceWithCommand accept_advice(Advice advice = Advice::accept) const;
 };
 
 [[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,

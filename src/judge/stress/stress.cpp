@@ -73,12 +73,12 @@ class StressScoring {
     }
     const core::Image* image = nullptr;
     if (record.outcome != record::Outcome::measured) {
-      score.lost.push_back(
+      score.lost_points.push_back(
           {.cause = Cause::ended, .outcome = record.outcome, .reason = record.reason});
     } else if (image = run_.image(record); image == nullptr) {
-      score.lost.push_back({.cause = Cause::no_image});
+      score.lost_points.push_back({.cause = Cause::no_image});
     } else if (!is_finite(*image)) {
-      score.lost.push_back({.cause = Cause::not_finite});
+      score.lost_points.push_back({.cause = Cause::not_finite});
     } else {
       score.drawn = true;
       judge_image(*image, expected, result);
@@ -93,19 +93,19 @@ class StressScoring {
     try {
       pair = truths_.truth(*result.record);
     } catch (const core::Error& error) {
-      score.lost.push_back({.cause = Cause::no_reference, .detail = error.what()});
+      score.lost_points.push_back({.cause = Cause::no_reference, .detail = error.what()});
       return;
     }
     const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
     Observation found = image_observation(comparison, image, pair.truth, Against::reference);
     score.correct = found.cause == Cause::within_bound;
-    if (!score.correct) score.lost.push_back(std::move(found));
+    if (!score.correct) score.lost_points.push_back(std::move(found));
     for (const record::Expectation& each : expected) {
       if (truths_.part && !has_other_record(each, *result.record, run_)) continue;
       auto wrong = violation_of(each, *result.record, run_, truths_.truth);
       if (!wrong) continue;
       score.correct = false;
-      score.lost.push_back(std::move(*wrong));
+      score.lost_points.push_back(std::move(*wrong));
     }
     if (!comparison.size_mismatch) {
       result.rmse = accuracy::root_mean_square(image, pair.truth, pair.bound);
@@ -124,13 +124,13 @@ class StressScoring {
       const double rms = accuracy::root_mean_square(image, *run_.image(*other->record), own.bound);
       if (rms < device_agreement) continue;
       own.score.agreed = false;
-      own.score.lost.push_back({.cause = Cause::farther_device,
-                                .against = Against::other_devices,
-                                .numbers = {{"rms", rms},
-                                            {"allowed", device_agreement},
-                                            {"rmse", *own.rmse},
-                                            {"rmse_of_other", *other->rmse}},
-                                .facts = {{"other", other->record->device}}});
+      own.score.lost_points.push_back({.cause = Cause::farther_device,
+                                       .against = Against::other_devices,
+                                       .numbers = {{"rms", rms},
+                                                   {"allowed", device_agreement},
+                                                   {"rmse", *own.rmse},
+                                                   {"rmse_of_other", *other->rmse}},
+                                       .facts = {{"other", other->record->device}}});
       return;
     }
   }

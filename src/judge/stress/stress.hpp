@@ -31,7 +31,7 @@ struct StressScore {
   bool drawn = false;    // a finite image was drawn without a crash, a hang or an error
   bool correct = false;  // the image is within its bound, and all expectations of the case hold
   bool agreed = false;   // every differing image of another device is farther from the reference
-  std::vector<Observation> lost = {};  // the reasons for the missing points
+  std::vector<Observation> lost_points = {};  // the reasons for the missing points
 
   [[nodiscard]] int points() const {
     return static_cast<int>(drawn) + static_cast<int>(correct) + static_cast<int>(agreed);

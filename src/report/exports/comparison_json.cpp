@@ -28,7 +28,8 @@ Json to_json(const judge::CodeComparison& comparison) {
                        {"before", each.before},
                        {"now", each.now}});
   }
-  return {{"changes", std::move(changes)}, {"gone", comparison.gone}, {"added", comparison.added}};
+  return {
+      {"changes", std::move(changes)}, {"gone", comparison.removed}, {"added", comparison.added}};
 }
 
 Json to_json(const judge::CodeTotal& total) {

@@ -60,12 +60,12 @@ std::string text_of(const judge::CodeComparison& comparison) {
   for (const CodeChange& each : comparison.changes) executables[each.executable].push_back(each);
   std::vector<std::string> parts;
   for (const auto& [name, changes] : executables) {
-    parts.push_back(executables.size() == 1 && comparison.gone.empty()
+    parts.push_back(executables.size() == 1 && comparison.removed.empty()
                         ? executable_text(changes)
                         : fmt::format("{}: {}", name, executable_text(changes)));
   }
-  if (!comparison.gone.empty()) {
-    parts.push_back(fmt::format("no longer compiled: {}", fmt::join(comparison.gone, ", ")));
+  if (!comparison.removed.empty()) {
+    parts.push_back(fmt::format("no longer compiled: {}", fmt::join(comparison.removed, ", ")));
   }
   if (!comparison.added.empty()) {
     parts.push_back(fmt::format("newly compiled: {}", fmt::join(comparison.added, ", ")));

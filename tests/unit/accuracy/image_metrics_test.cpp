@@ -63,11 +63,11 @@ TEST(ImageMetrics, CountsNonFinitePixels) {
 TEST(ImageMetrics, FindsTheRectangleOfWrongPixels) {
   const core::Image truth = filled(8, 6, 0.5F);
   core::Image image = truth;
-  EXPECT_EQ(compare(image, truth, 0.125).wrong.left, -1);
+  EXPECT_EQ(compare(image, truth, 0.125).wrong_area.left, -1);
   channel(image, 5, 1, 0) = 1.0F;
   channel(image, 2, 4, 3) = std::nanf("");
   channel(image, 3, 2, 1) = 0.5625F;  // within the bound
-  const auto& [left, top, right, bottom] = compare(image, truth, 0.125).wrong;
+  const auto& [left, top, right, bottom] = compare(image, truth, 0.125).wrong_area;
   EXPECT_EQ(left, 2);
   EXPECT_EQ(top, 1);
   EXPECT_EQ(right, 5);
