@@ -156,7 +156,6 @@ std::string first_change(const fs::path& folder, const Manifest& manifest) {
 
 double log_spread(std::vector<double> times_ns) {
   constexpr double process_spread = 0.005;
-  constexpr double mad_factor = 1.4826;
   std::ranges::sort(times_ns);
   std::vector<double> logarithms;
   double step = std::numeric_limits<double>::infinity();
@@ -169,7 +168,7 @@ double log_spread(std::vector<double> times_ns) {
   if (!std::isfinite(step)) step = 0;
   const double centre = estimation::median(logarithms);
   for (double& value : logarithms) value = std::abs(value - centre);
-  return std::max({mad_factor * estimation::median(logarithms), step, process_spread});
+  return std::max({estimation::normal_mad * estimation::median(logarithms), step, process_spread});
 }
 
 }  // namespace triptych::judge

@@ -175,12 +175,12 @@ class Baselines {
   std::shared_ptr<Cache> cache_;
 };
 
-// Returns the spread of ln(frame time) over the frames of one run: 1.4826 times the median absolute
-// deviation, which equals σ for a normal distribution. The result is at least the smallest nonzero
-// difference between two of these logarithms, because the clock may not resolve smaller
-// differences. It is also at least 0.5 %, because the medians of two processes that run the same
-// program undisturbed differ by that much (docs/how-we-measure.md), and the frames of a single
-// process cannot show this difference.
+// Returns the spread of ln(frame time) over the frames of one run: the median absolute deviation
+// times estimation::normal_mad, which equals σ for a normal distribution. The result is at least
+// the smallest nonzero difference between two of these logarithms, because the clock may not
+// resolve smaller differences. It is also at least 0.5 %, because the medians of two processes that
+// run the same program undisturbed differ by that much (docs/how-we-measure.md), and the frames of
+// a single process cannot show this difference.
 [[nodiscard]] double log_spread(std::vector<double> times_ns);
 
 // Returns the checks of the run's plan. If the run does not store them, returns image, counters,

@@ -33,8 +33,8 @@ class JudgeTest : public testing::Test {
 
   // Adds twelve measured records. Times have 0.5 % noise around a mean for each configuration.
   void add_run(const std::string& run, const Tweak& tweak = {});
-  // Accepts a run. `request` supplies all settings except the plan, the reason, the date and the
-  // reference image.
+  // Accepts a run. `request` supplies all settings except the plan, the reason and the date. If it
+  // has no function that returns reference images, truth_of() is used.
   std::vector<std::string> accept_run(const std::string& run, AcceptRequest request = {});
   // Adds and accepts a run with the id "accepted".
   void accept_first(const Tweak& tweak = {});
