@@ -21,7 +21,7 @@ class NullBackend final : public measure::Backend {
 
   measure::Listing list() const override {
     measure::Listing listing;
-    if (script_) play_failure(*script_, Place::list, "null");
+    if (script_) trigger_failure(*script_, Place::list, "null");
     if (script_) listing.devices = devices_of(*script_);
     if (!error_.empty()) listing.broken.push_back({"TRIPTYCH_NULL_SCRIPT", error_});
     return listing;
@@ -38,7 +38,7 @@ class NullBackend final : public measure::Backend {
                       script_ ? "" : "; it has devices only if TRIPTYCH_NULL_SCRIPT is set"));
     }
     log_call(*script_, fmt::format("open {}", device_id));
-    play_failure(*script_, Place::open, found->id);
+    trigger_failure(*script_, Place::open, found->id);
     return make_device(script_, static_cast<std::size_t>(found - devices.begin()));
   }
 

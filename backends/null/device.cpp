@@ -11,7 +11,7 @@
 #include <utility>
 #include <variant>
 
-#include "backends/null/invented.hpp"
+#include "backends/null/synthetic.hpp"
 #include "core/error.hpp"
 #include "core/hash.hpp"
 #include "core/image_io.hpp"
@@ -86,7 +86,7 @@ class NullPrepared final : public measure::Prepared {
                                                                        : "counters";
     log_call(*script_, fmt::format("frame {}", name));
     const int number = frames_++;
-    play_failure(*script_, Place::frame, subject_, number);
+    trigger_failure(*script_, Place::frame, subject_, number);
     drawn_ = true;
     measure::Frame frame;
     frame.wall_ns = frame_ns(*script_, work_, device_factor_, subject_, number);
@@ -108,7 +108,7 @@ class NullPrepared final : public measure::Prepared {
     if (overwritten_ && !drawn_) return filled(std::numeric_limits<float>::quiet_NaN());
     log_call(*script_, "image");
     if (frames_ == 0) throw core::Error("the image was requested before a frame was drawn");
-    play_failure(*script_, Place::image, subject_);
+    trigger_failure(*script_, Place::image, subject_);
     if (!image_) image_ = drawn_image();
     const bool stale = failure_ == FailureKind::stale_image && frames_ > 1 && overwritten_;
     return stale ? filled(std::numeric_limits<float>::quiet_NaN()) : *image_;
@@ -161,7 +161,7 @@ class NullDevice final : public measure::Device {
   std::optional<std::string> unsupported(const measure::Work& work) const override {
     try {
       static_cast<void>(technique::technique(work.technique));
-      play_failure(*script_, Place::supports, describe(work));
+      trigger_failure(*script_, Place::supports, describe(work));
     } catch (const core::NotSupported& reason) {
       return reason.what();
     } catch (const core::InputError& unknown) {
@@ -194,8 +194,8 @@ class NullDevice final : public measure::Device {
     if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
     std::string subject = describe(work);
     const std::size_t earlier = prepares_[subject]++;
-    play_failure(*script_, Place::prepare, subject, static_cast<int>(earlier));
-    remember_prepared(subject);
+    trigger_failure(*script_, Place::prepare, subject, static_cast<int>(earlier));
+    record_prepared(subject);
     const auto& factors = script_->prepare_factors;
     const double factor = factor_ * (earlier < factors.size() ? factors[earlier] : 1.0);
     return std::make_unique<NullPrepared>(script_, work, std::move(subject), factor);

@@ -18,7 +18,7 @@ namespace triptych::null_backend {
 // Triggers the first failure in the script that matches this place, if there is one: throws, ends
 // the process or never returns. `subject` is matched against the globs. `number` is the number of
 // the frame or, at Place::prepare, of the work's preparation.
-void play_failure(const Script& script, Place at, const std::string& subject, int number = 0);
+void trigger_failure(const Script& script, Place at, const std::string& subject, int number = 0);
 
 // Returns the first failure that affects the image: wrong_image, nan_image or another failure at
 // Place::image.
@@ -30,7 +30,7 @@ void play_failure(const Script& script, Place at, const std::string& subject, in
 
 // Records that this process has prepared work with this description. A failure with `after` happens
 // only if such work was prepared before.
-void remember_prepared(const std::string& description);
+void record_prepared(const std::string& description);
 
 void log_call(const Script& script, std::string call);
 

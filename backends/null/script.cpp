@@ -54,7 +54,7 @@ std::string text(const Json& value, std::string_view key) {
   return value.get<std::string>();
 }
 
-bool is_of_image(FailureKind kind) {
+bool affects_image(FailureKind kind) {
   return kind == FailureKind::wrong_image || kind == FailureKind::nan_image ||
          kind == FailureKind::stale_image;
 }
@@ -67,7 +67,7 @@ std::set<std::string>& prepared_work() {
 
 // Returns whether the failure happens. A failure with `once` happens only in the process that
 // creates the file.
-bool happens(const Failure& failure) {
+bool is_triggered(const Failure& failure) {
   const bool ready = std::ranges::all_of(failure.after, [](const std::string& glob) {
     return std::ranges::any_of(prepared_work(), [&glob](const std::string& description) {
       return matches(glob, description);
@@ -86,8 +86,8 @@ Failure parse_failure(const Json& json) {
     refuse("failures", "objects that contain a \"kind\"");
   Failure failure;
   failure.kind = level<FailureKind>(json.at("kind"), "kind", kind_names);
-  const bool of_image = is_of_image(failure.kind);
-  if (of_image) failure.at = Place::image;
+  const bool image_only = affects_image(failure.kind);
+  if (image_only) failure.at = Place::image;
   for (const auto& [key, value] : json.items()) {
     if (key == "at") {
       failure.at = level<Place>(value, key, place_names);
@@ -106,7 +106,7 @@ Failure parse_failure(const Json& json) {
              "one of the keys of an object in 'failures': kind, at, frame, only, once or after");
     }
   }
-  if (of_image && failure.at != Place::image)
+  if (image_only && failure.at != Place::image)
     refuse("at", "\"image\", because this kind of failure affects the image");
   return failure;
 }
@@ -182,7 +182,7 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
   for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
-void play(FailureKind kind) {
+void trigger(FailureKind kind) {
   switch (kind) {
     case FailureKind::crash:
       std::abort();
@@ -254,25 +254,25 @@ bool matches(const std::string& glob, const std::string& subject) {
   return fnmatch(glob.c_str(), subject.c_str(), 0) == 0;
 }
 
-void play_failure(const Script& script, Place at, const std::string& subject, int number) {
+void trigger_failure(const Script& script, Place at, const std::string& subject, int number) {
   for (const Failure& failure : script.failures) {
     if (failure.at != at || !matches(failure.only, subject)) continue;
     const bool counted = at == Place::frame || at == Place::prepare;
     if (counted && failure.frame && *failure.frame != number) continue;
-    if (!is_of_image(failure.kind) && happens(failure)) play(failure.kind);
+    if (!affects_image(failure.kind) && is_triggered(failure)) trigger(failure.kind);
     return;
   }
 }
 
 std::optional<FailureKind> image_failure(const Script& script, const std::string& subject) {
   for (const Failure& failure : script.failures) {
-    if (!is_of_image(failure.kind) || !matches(failure.only, subject)) continue;
-    return happens(failure) ? std::optional(failure.kind) : std::nullopt;
+    if (!affects_image(failure.kind) || !matches(failure.only, subject)) continue;
+    return is_triggered(failure) ? std::optional(failure.kind) : std::nullopt;
   }
   return std::nullopt;
 }
 
-void remember_prepared(const std::string& description) {
+void record_prepared(const std::string& description) {
   prepared_work().insert(description);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The invented results of a scripted device: numbers and images that depend only on the work, so
+// The synthetic results of a scripted device: numbers and images that depend only on the work, so
 // that they are identical every time.
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "backends/null/invented.hpp"
+#include "backends/null/synthetic.hpp"
 
 #include <fmt/format.h>
 
