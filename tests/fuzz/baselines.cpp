@@ -9,15 +9,15 @@ namespace {
 // because that would reject every modified file at once.
 void read_all(const judge::Baselines& baselines) {
   const std::string name = "x";
-  fuzz::expect_ours([&] { static_cast<void>(baselines.problem()); });
-  fuzz::expect_ours([&] { static_cast<void>(baselines.reference(name)); });
-  fuzz::expect_ours([&] { static_cast<void>(baselines.counters(name)); });
-  fuzz::expect_ours([&] { static_cast<void>(baselines.memory(name)); });
-  fuzz::expect_ours([&] { static_cast<void>(baselines.errors(name)); });
-  fuzz::expect_ours([&] { static_cast<void>(baselines.scores(name)); });
-  fuzz::expect_ours([&] { static_cast<void>(baselines.cost_of_all_drivers()); });
-  fuzz::expect_ours([&] { static_cast<void>(baselines.statistics_of_all_drivers(name)); });
-  fuzz::expect_ours([&] { static_cast<void>(baselines.statistics_calibration("d")); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(baselines.problem()); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(baselines.reference(name)); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(baselines.counters(name)); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(baselines.memory(name)); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(baselines.errors(name)); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(baselines.scores(name)); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(baselines.cost_of_all_drivers()); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(baselines.statistics_of_all_drivers(name)); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(baselines.statistics_calibration("d")); });
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ inline std::filesystem::path write(const std::string& name, std::string_view con
 // Runs a reader, which may throw Triptych's own error types. Any other exception terminates the
 // process, which libFuzzer reports as a crash.
 template <typename Read>
-void expect_ours(const Read& read) {
+void expect_typed_errors(const Read& read) {
   try {
     read();
   } catch (const core::Error&) {

@@ -10,7 +10,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (!input) return fuzz::rejected;
   const std::string file = fuzz::write("p." + input->kind, input->content).string();
   for (const std::string& name : {file, file + "@1"}) {
-    fuzz::expect_ours(
+    fuzz::expect_typed_errors(
         [&] { static_cast<void>(scene::load_particles(name, scene::ColourKind::intensity)); });
   }
   return fuzz::judged;

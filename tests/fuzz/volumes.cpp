@@ -17,13 +17,15 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const std::filesystem::path image = fuzz::write("v.img", std::string(64, 'v'));
   if (input->kind == "spec") {
     const std::string spec(input->content.substr(0, input->content.find('\n')));
-    fuzz::expect_ours([&] { static_cast<void>(scene::load_volume(raw.string() + ":" + spec)); });
+    fuzz::expect_typed_errors(
+        [&] { static_cast<void>(scene::load_volume(raw.string() + ":" + spec)); });
     return fuzz::judged;
   }
   const std::filesystem::path file = fuzz::write("v." + input->kind, input->content);
   for (const scene::Component& component :
        {scene::Component{}, scene::Component{.index = 1}, scene::Component{.magnitude = true}}) {
-    fuzz::expect_ours([&] { static_cast<void>(scene::load_volume(file.string(), {}, component)); });
+    fuzz::expect_typed_errors(
+        [&] { static_cast<void>(scene::load_volume(file.string(), {}, component)); });
   }
   return fuzz::judged;
 }

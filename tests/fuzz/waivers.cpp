@@ -4,8 +4,8 @@
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace triptych;
   const auto file = fuzz::write("waivers.json", fuzz::text_of(data, size));
-  fuzz::expect_ours(
+  fuzz::expect_typed_errors(
       [&] { static_cast<void>(judge::Baselines(fuzz::folder(), "s/p").waivers("2026-01-01")); });
-  fuzz::expect_ours([&] { static_cast<void>(judge::read_expected_outcomes(file)); });
+  fuzz::expect_typed_errors([&] { static_cast<void>(judge::read_expected_outcomes(file)); });
   return fuzz::judged;
 }

@@ -14,15 +14,15 @@
 namespace triptych::layer {
 namespace {
 
-// The next layer below this one, for an instance or a device. `taken` contains the instance
-// commands that this layer needs. They must be looked up while vkCreateInstance runs, because
-// afterwards the loader would return this layer's own functions.
+// The next layer below this one, for an instance or a device. `instance_commands` contains the
+// instance commands that this layer needs. They must be looked up while vkCreateInstance runs,
+// because afterwards the loader would return this layer's own functions.
 struct Link {
   VkInstance instance = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;  // null if this is the link of an instance
   PFN_vkGetInstanceProcAddr instance_command = nullptr;
   PFN_vkGetDeviceProcAddr device_command = nullptr;
-  std::map<std::string_view, PFN_vkVoidFunction> taken = {};
+  std::map<std::string_view, PFN_vkVoidFunction> instance_commands = {};
 };
 
 struct State {
@@ -67,27 +67,27 @@ Info* loader_info(const void* next, VkStructureType type) {
   return nullptr;
 }
 
-std::array<std::span<const Hook>, 8> every_hook() {
+std::array<std::span<const Hook>, 8> all_hooks() {
   return {description_hooks(), memory_hooks(),        queue_hooks(),       refusal_hooks(),
           state_fault_hooks(), command_fault_hooks(), query_fault_hooks(), submission_hooks()};
 }
 
-std::map<std::string_view, PFN_vkVoidFunction> taken_of(VkInstance instance,
-                                                        PFN_vkGetInstanceProcAddr below) {
-  std::map<std::string_view, PFN_vkVoidFunction> taken{
+std::map<std::string_view, PFN_vkVoidFunction> instance_commands_of(
+    VkInstance instance, PFN_vkGetInstanceProcAddr below) {
+  std::map<std::string_view, PFN_vkVoidFunction> instance_commands{
       {"vkDestroyInstance", below(instance, "vkDestroyInstance")}};
   for (const Hook& each : description_hooks()) {
-    taken.emplace(each.command, below(instance, each.command.data()));
+    instance_commands.emplace(each.command, below(instance, each.command.data()));
   }
   for (const char* command :
        {"vkGetPhysicalDeviceMemoryProperties", "vkGetPhysicalDeviceQueueFamilyProperties"}) {
-    taken.emplace(command, below(instance, command));
+    instance_commands.emplace(command, below(instance, command));
   }
-  return taken;
+  return instance_commands;
 }
 
 bool known_fault(std::string_view name) {
-  for (const std::span<const Hook> hooks : every_hook()) {
+  for (const std::span<const Hook> hooks : all_hooks()) {
     for (const Hook& each : hooks) {
       if (!each.change.empty() && each.change == name) return true;
     }
@@ -113,8 +113,9 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
       reinterpret_cast<PFN_vkCreateInstance>(below(VK_NULL_HANDLE, "vkCreateInstance"));
   const VkResult result = create(info, allocator, instance);
   if (result != VK_SUCCESS) return result;
-  add_link(*instance,
-           {.instance = *instance, .instance_command = below, .taken = taken_of(*instance, below)});
+  add_link(*instance, {.instance = *instance,
+                       .instance_command = below,
+                       .instance_commands = instance_commands_of(*instance, below)});
   return result;
 }
 
@@ -165,7 +166,7 @@ VKAPI_ATTR VkResult VKAPI_CALL queue_submit(VkQueue queue, std::uint32_t count,
 PFN_vkVoidFunction instance_command(VkInstance instance, const char* name);
 PFN_vkVoidFunction device_command(VkDevice device, const char* name);
 
-PFN_vkVoidFunction own(std::string_view name) {
+PFN_vkVoidFunction replacement(std::string_view name) {
   const std::string_view first = changes().front().name;
   const std::string_view wanted = known_limit(first) ? std::string_view() : first;
   for (const Hook& each : submission_hooks()) {
@@ -181,25 +182,26 @@ PFN_vkVoidFunction own(std::string_view name) {
   for (const Hook& each : always) {
     if (each.command == name) return each.function;
   }
-  for (const std::span<const Hook> hooks : every_hook()) {
+  for (const std::span<const Hook> hooks : all_hooks()) {
     for (const Hook& each : hooks) {
-      const bool of_all = each.command == "vkGetPhysicalDeviceProperties2";
-      if ((each.change == wanted || of_all) && each.command == name) return each.function;
+      const bool serves_every_change = each.command == "vkGetPhysicalDeviceProperties2";
+      if ((each.change == wanted || serves_every_change) && each.command == name)
+        return each.function;
     }
   }
   return nullptr;
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instance_command(VkInstance instance, const char* name) {
-  if (PFN_vkVoidFunction mine = own(name)) return mine;
+  if (PFN_vkVoidFunction layer_function = replacement(name)) return layer_function;
   return instance == VK_NULL_HANDLE ? nullptr : next_of(instance, name);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_command(VkDevice device, const char* name) {
   const PFN_vkVoidFunction below = next_of(device, name);
   if (below == nullptr) return nullptr;
-  const PFN_vkVoidFunction mine = own(name);
-  return mine != nullptr ? mine : below;
+  const PFN_vkVoidFunction layer_function = replacement(name);
+  return layer_function != nullptr ? layer_function : below;
 }
 
 }  // namespace
@@ -207,8 +209,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL device_command(VkDevice device, const c
 PFN_vkVoidFunction next_of(const void* handle, const char* command) {
   const Link link = link_of(handle);
   if (link.device != VK_NULL_HANDLE) return link.device_command(link.device, command);
-  const auto found = link.taken.find(command);
-  return found != link.taken.end() ? found->second : link.instance_command(link.instance, command);
+  const auto found = link.instance_commands.find(command);
+  return found != link.instance_commands.end() ? found->second
+                                               : link.instance_command(link.instance, command);
 }
 
 VkResult refuse(std::string_view what) {

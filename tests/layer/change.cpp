@@ -43,17 +43,17 @@ const std::vector<Change>& changes() {
   return all;
 }
 
-bool asked(std::string_view name) {
+bool is_requested(std::string_view name) {
   return find(name) != nullptr;
 }
 
-double asked_value(std::string_view name) {
+double requested_value(std::string_view name) {
   const Change* const change = find(name);
   return change == nullptr ? 0 : change->value;
 }
 
-std::uint32_t asked_number(std::string_view name) {
-  return static_cast<std::uint32_t>(asked_value(name));
+std::uint32_t requested_number(std::string_view name) {
+  return static_cast<std::uint32_t>(requested_value(name));
 }
 
 }  // namespace triptych::layer

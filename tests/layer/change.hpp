@@ -19,9 +19,9 @@ struct Change {
 // The whole value of TRIPTYCH_LAYER.
 [[nodiscard]] const std::string& requested();
 
-[[nodiscard]] bool asked(std::string_view name);
+[[nodiscard]] bool is_requested(std::string_view name);
 // Returns the value of the requested change with this name; 0 if it has none.
-[[nodiscard]] double asked_value(std::string_view name);
-[[nodiscard]] std::uint32_t asked_number(std::string_view name);
+[[nodiscard]] double requested_value(std::string_view name);
+[[nodiscard]] std::uint32_t requested_number(std::string_view name);
 
 }  // namespace triptych::layer

@@ -84,10 +84,10 @@ VKAPI_ATTR void VKAPI_CALL properties2(VkPhysicalDevice physical,
   lower(properties->properties.limits);
   for (auto* each = static_cast<VkBaseOutStructure*>(properties->pNext); each != nullptr;
        each = each->pNext) {
-    if (asked("maxMemoryAllocationSize") &&
+    if (is_requested("maxMemoryAllocationSize") &&
         each->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES) {
       reinterpret_cast<VkPhysicalDeviceMaintenance3Properties*>(each)->maxMemoryAllocationSize =
-          asked_number("maxMemoryAllocationSize");
+          requested_number("maxMemoryAllocationSize");
     }
     if (each->sType != VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES) continue;
     rename(*reinterpret_cast<VkPhysicalDeviceDriverProperties*>(each));
@@ -116,11 +116,12 @@ VKAPI_ATTR void VKAPI_CALL format_properties(VkPhysicalDevice physical, VkFormat
       physical, format, properties);
   const bool single = format == VK_FORMAT_R8_UNORM || format == VK_FORMAT_R16_UNORM ||
                       format == VK_FORMAT_R32_SFLOAT;
-  if (asked("linearFilter") && single) {
+  if (is_requested("linearFilter") && single) {
     properties->optimalTilingFeatures &=
         ~VkFormatFeatureFlags{VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT};
   }
-  if (asked("floatDepth") && format == VK_FORMAT_D32_SFLOAT) properties->optimalTilingFeatures = 0;
+  if (is_requested("floatDepth") && format == VK_FORMAT_D32_SFLOAT)
+    properties->optimalTilingFeatures = 0;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL image_properties(VkPhysicalDevice physical, VkFormat format,
@@ -132,10 +133,10 @@ VKAPI_ATTR VkResult VKAPI_CALL image_properties(VkPhysicalDevice physical, VkFor
                                                             flags, properties);
   const std::array names{"maxImageDimension1D", "maxImageDimension2D", "maxImageDimension3D"};
   const char* const name = names.at(static_cast<std::size_t>(type));
-  if (asked(name)) {
+  if (is_requested(name)) {
     for (std::uint32_t* side : {&properties->maxExtent.width, &properties->maxExtent.height,
                                 &properties->maxExtent.depth}) {
-      *side = std::min(*side, asked_number(name));
+      *side = std::min(*side, requested_number(name));
     }
   }
   return result;
@@ -153,39 +154,40 @@ bool known_limit(std::string_view name) {
 
 void lower(VkPhysicalDeviceLimits& limits) {
   for (const auto& [name, limit] : numbers) {
-    if (asked(name)) limits.*limit = asked_number(name);
+    if (is_requested(name)) limits.*limit = requested_number(name);
   }
-  if (asked("maxComputeWorkGroupSize")) {
+  if (is_requested("maxComputeWorkGroupSize")) {
     for (std::uint32_t& side : limits.maxComputeWorkGroupSize)
-      side = asked_number("maxComputeWorkGroupSize");
+      side = requested_number("maxComputeWorkGroupSize");
   }
-  if (asked("maxComputeWorkGroupCount")) {
+  if (is_requested("maxComputeWorkGroupCount")) {
     for (std::uint32_t& side : limits.maxComputeWorkGroupCount)
-      side = asked_number("maxComputeWorkGroupCount");
+      side = requested_number("maxComputeWorkGroupCount");
   }
-  if (asked("maxFramebufferWidth")) {
-    limits.maxFramebufferWidth = limits.maxFramebufferHeight = asked_number("maxFramebufferWidth");
+  if (is_requested("maxFramebufferWidth")) {
+    limits.maxFramebufferWidth = limits.maxFramebufferHeight =
+        requested_number("maxFramebufferWidth");
   }
-  if (asked("pointSizeRange")) {
-    limits.pointSizeRange[1] = static_cast<float>(asked_value("pointSizeRange"));
+  if (is_requested("pointSizeRange")) {
+    limits.pointSizeRange[1] = static_cast<float>(requested_value("pointSizeRange"));
   }
-  if (asked("pointSizeGranularity")) {
-    limits.pointSizeGranularity = static_cast<float>(asked_value("pointSizeGranularity"));
+  if (is_requested("pointSizeGranularity")) {
+    limits.pointSizeGranularity = static_cast<float>(requested_value("pointSizeGranularity"));
   }
-  if (asked("timestampComputeAndGraphics") || asked("timestampValidBits")) {
+  if (is_requested("timestampComputeAndGraphics") || is_requested("timestampValidBits")) {
     limits.timestampComputeAndGraphics = VK_FALSE;
   }
 }
 
 void lower(VkPhysicalDeviceFeatures& features) {
   for (const auto& [name, feature] : features_named) {
-    if (asked(name)) features.*feature = VK_FALSE;
+    if (is_requested(name)) features.*feature = VK_FALSE;
   }
 }
 
 bool enables_hidden(const VkPhysicalDeviceFeatures& features) {
   return std::ranges::any_of(features_named, [&](const auto& each) {
-    return asked(each.first) && features.*each.second == VK_TRUE;
+    return is_requested(each.first) && features.*each.second == VK_TRUE;
   });
 }
 

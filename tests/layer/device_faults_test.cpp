@@ -19,7 +19,7 @@ constexpr const char* few = "--set data=generate:mandelbulb:40";
 
 struct DeviceFaultCase {
   const char* change;
-  const char* told;
+  const char* message;
 };
 
 const std::vector<DeviceFaultCase>& device_faults() {
@@ -54,7 +54,7 @@ TEST_F(DeviceFaults, AreReportedAndTheRestIsMeasured) {
     EXPECT_THAT(layered.time(each.change, "volume", few).output, HasSubstr(" 0 failed"));
     const test::Result result = judged();
     EXPECT_EQ(result.code, 1) << result.output;
-    EXPECT_THAT(unwrapped(result.output), HasSubstr(each.told));
+    EXPECT_THAT(unwrapped(result.output), HasSubstr(each.message));
   }
 }
 

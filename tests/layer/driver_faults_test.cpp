@@ -23,7 +23,7 @@ enum class Undrawn : std::uint8_t { no, yes, perhaps };
 struct Fault {
   const char* name;
   const char* plan;
-  const char* told;  // the first reported cause
+  const char* message;  // the first reported cause
   int causes = 1;
   Undrawn undrawn = Undrawn::no;
 };
@@ -94,7 +94,7 @@ class DriverFaults : public LayerTest {
       }
       const test::Result judged = layered.judge(plan);
       EXPECT_EQ(judged.code, 1);
-      EXPECT_THAT(judged.output, HasSubstr(fmt::format("\n  ✗ {}", each.told)));
+      EXPECT_THAT(judged.output, HasSubstr(fmt::format("\n  ✗ {}", each.message)));
       EXPECT_LE(causes_in(judged.output), each.causes) << judged.output;
       EXPECT_THAT(judged.output, HasSubstr(fmt::format("TRIPTYCH_LAYER={} ", each.name)));
       EXPECT_THAT(unwrapped(judged.output), HasSubstr("; the driver is at fault"));
@@ -118,19 +118,19 @@ TEST_F(DriverFaults, AreDistinguishedFromFaultsOfTriptych) {
   }
   ASSERT_EQ(accepted.code, 0) << accepted.output;
   EXPECT_EQ(layered.draw("", particles, devices + " --inject small_sprite").code, 0);
-  const std::string ours = unwrapped(layered.judge(particles).output);
-  EXPECT_THAT(ours, HasSubstr("the driver is not at fault, because opencl:pocl is"));
-  EXPECT_THAT(ours, HasSubstr("the driver is not at fault, because vulkan:lavapipe is"));
-  EXPECT_THAT(ours, testing::Not(HasSubstr("the driver is at fault")));
+  const std::string verdicts = unwrapped(layered.judge(particles).output);
+  EXPECT_THAT(verdicts, HasSubstr("the driver is not at fault, because opencl:pocl is"));
+  EXPECT_THAT(verdicts, HasSubstr("the driver is not at fault, because vulkan:lavapipe is"));
+  EXPECT_THAT(verdicts, testing::Not(HasSubstr("the driver is at fault")));
 }
 
 TEST_F(DriverFaults, InQueriesAreReportedByDevices) {
-  const auto of_vulkan = [&](std::string_view fault) {
+  const auto vulkan_report = [&](std::string_view fault) {
     const std::string all = layered.run(fault, "devices --device vulkan:lavapipe").output;
     return all.substr(std::min(all.find("vulkan:lavapipe"), all.size()));
   };
-  EXPECT_THAT(of_vulkan("stuck_clock"), HasSubstr("clock for compute: not trusted"));
-  EXPECT_THAT(of_vulkan("double_statistics"),
+  EXPECT_THAT(vulkan_report("stuck_clock"), HasSubstr("clock for compute: not trusted"));
+  EXPECT_THAT(vulkan_report("double_statistics"),
               HasSubstr("statistic vertex_invocations: always 2 times the correct count"));
 }
 

@@ -18,7 +18,7 @@ constexpr GLenum gl_compile_status = 0x8B81;
 
 namespace {
 
-bool asked(std::string_view fault) {
+bool is_requested(std::string_view fault) {
   const char* set = std::getenv("TRIPTYCH_SHIM");
   return set != nullptr && fault == set;
 }
@@ -84,36 +84,36 @@ void draw_instanced_once(GLenum mode, GLint first, GLsizei count, GLsizei instan
 void dispatch_never(GLuint, GLuint, GLuint) {}
 void draw_never(GLenum, GLint, GLsizei) {}
 
-void no_shader(GLuint shader, GLenum name, GLint* value) {
+void failed_compilation(GLuint shader, GLenum name, GLint* value) {
   gl_function<void(GLuint, GLenum, GLint*)>("glGetShaderiv")(shader, name, value);
   constexpr GLenum gl_info_log_length = 0x8B84;
   if (name == gl_compile_status) *value = 0;
   if (name == gl_info_log_length) *value = 8;
 }
 
-void log_of_no_length(GLuint, GLsizei, GLsizei* length, char* log) {
-  constexpr std::string_view said = "no luck";
-  log[said.copy(log, said.size())] = '\0';
+void negative_length_log(GLuint, GLsizei, GLsizei* length, char* log) {
+  constexpr std::string_view text = "no luck";
+  log[text.copy(log, text.size())] = '\0';
   *length = -1;
 }
 
 using Any = void (*)();
 
 Any fault_for(std::string_view name) {
-  if (asked("once_only")) {
+  if (is_requested("once_only")) {
     if (name == "glLinkProgram") return reinterpret_cast<Any>(&link);
     if (name == "glDispatchCompute") return reinterpret_cast<Any>(&dispatch_once);
     if (name == "glDrawArrays") return reinterpret_cast<Any>(&draw_once);
     if (name == "glMultiDrawArraysIndirect") return reinterpret_cast<Any>(&draw_indirect_once);
     if (name == "glDrawArraysInstanced") return reinterpret_cast<Any>(&draw_instanced_once);
   }
-  if (asked("never_compiled")) {
+  if (is_requested("never_compiled")) {
     if (name == "glDispatchCompute") return reinterpret_cast<Any>(&dispatch_never);
     if (name == "glDrawArrays") return reinterpret_cast<Any>(&draw_never);
   }
-  if (asked("negative_log")) {
-    if (name == "glGetShaderiv") return reinterpret_cast<Any>(&no_shader);
-    if (name == "glGetShaderInfoLog") return reinterpret_cast<Any>(&log_of_no_length);
+  if (is_requested("negative_log")) {
+    if (name == "glGetShaderiv") return reinterpret_cast<Any>(&failed_compilation);
+    if (name == "glGetShaderInfoLog") return reinterpret_cast<Any>(&negative_length_log);
   }
   return nullptr;
 }

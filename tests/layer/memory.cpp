@@ -15,18 +15,19 @@ namespace {
 enum Type : std::uint32_t { on_device, on_host, types };
 
 std::mutex mutex;
-std::set<VkDeviceMemory> unseen;  // memory that the host cannot access
+std::set<VkDeviceMemory> host_inaccessible;  // memory that the host cannot access
 
-bool apart() {
-  return asked("hostVisibleDeviceLocal");
+bool has_separate_heaps() {
+  return is_requested("hostVisibleDeviceLocal");
 }
 
 VKAPI_ATTR void VKAPI_CALL memory_properties(VkPhysicalDevice physical,
                                              VkPhysicalDeviceMemoryProperties* memory) {
   next<PFN_vkGetPhysicalDeviceMemoryProperties>(physical, "vkGetPhysicalDeviceMemoryProperties")(
       physical, memory);
-  if (asked("memoryHeapSize")) memory->memoryHeaps[0].size = asked_number("memoryHeapSize");
-  if (asked("emptyHeap")) {
+  if (is_requested("memoryHeapSize"))
+    memory->memoryHeaps[0].size = requested_number("memoryHeapSize");
+  if (is_requested("emptyHeap")) {
     // A heap of 0 bytes comes first, as in the lists of some drivers.
     memory->memoryHeapCount = memory->memoryTypeCount = 2;
     memory->memoryHeaps[1] = memory->memoryHeaps[0];
@@ -35,7 +36,7 @@ VKAPI_ATTR void VKAPI_CALL memory_properties(VkPhysicalDevice physical,
     memory->memoryTypes[1] = {memory->memoryTypes[0].propertyFlags, 1};
     memory->memoryTypes[0] = {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
   }
-  if (!apart()) return;
+  if (!has_separate_heaps()) return;
   memory->memoryHeapCount = types;
   memory->memoryHeaps[on_host] = {.size = memory->memoryHeaps[0].size, .flags = 0};
   memory->memoryHeaps[on_device].flags = VK_MEMORY_HEAP_DEVICE_LOCAL_BIT;
@@ -49,39 +50,40 @@ VKAPI_ATTR void VKAPI_CALL buffer_needs(VkDevice device, VkBuffer buffer,
                                         VkMemoryRequirements* needs) {
   next<PFN_vkGetBufferMemoryRequirements>(device, "vkGetBufferMemoryRequirements")(device, buffer,
                                                                                    needs);
-  if (apart() || asked("emptyHeap")) needs->memoryTypeBits = 1U << on_device | 1U << on_host;
+  if (has_separate_heaps() || is_requested("emptyHeap"))
+    needs->memoryTypeBits = 1U << on_device | 1U << on_host;
 }
 
 VKAPI_ATTR void VKAPI_CALL image_needs(VkDevice device, VkImage image,
                                        VkMemoryRequirements* needs) {
   next<PFN_vkGetImageMemoryRequirements>(device, "vkGetImageMemoryRequirements")(device, image,
                                                                                  needs);
-  if (asked("emptyHeap")) needs->memoryTypeBits = 1U << on_device | 1U << on_host;
+  if (is_requested("emptyHeap")) needs->memoryTypeBits = 1U << on_device | 1U << on_host;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL allocate(VkDevice device, const VkMemoryAllocateInfo* info,
                                         const VkAllocationCallbacks* allocator,
                                         VkDeviceMemory* memory) {
-  if (asked("memoryHeapSize") && info->allocationSize > asked_number("memoryHeapSize")) {
+  if (is_requested("memoryHeapSize") && info->allocationSize > requested_number("memoryHeapSize")) {
     return refuse("vkAllocateMemory: more than the size of the heap");
   }
-  if (asked("maxMemoryAllocationSize") &&
-      info->allocationSize > asked_number("maxMemoryAllocationSize")) {
+  if (is_requested("maxMemoryAllocationSize") &&
+      info->allocationSize > requested_number("maxMemoryAllocationSize")) {
     return VK_ERROR_OUT_OF_DEVICE_MEMORY;
   }
-  if (asked("emptyHeap") && info->memoryTypeIndex == 0) {
+  if (is_requested("emptyHeap") && info->memoryTypeIndex == 0) {
     return refuse("vkAllocateMemory from a heap of 0 bytes");
   }
   VkMemoryAllocateInfo below = *info;
-  if (apart() || asked("emptyHeap")) below.memoryTypeIndex = 0;
+  if (has_separate_heaps() || is_requested("emptyHeap")) below.memoryTypeIndex = 0;
   const VkResult result =
       next<PFN_vkAllocateMemory>(device, "vkAllocateMemory")(device, &below, allocator, memory);
-  if (result == VK_SUCCESS && apart()) {
+  if (result == VK_SUCCESS && has_separate_heaps()) {
     const std::lock_guard lock(mutex);
     if (info->memoryTypeIndex == on_device) {
-      unseen.insert(*memory);
+      host_inaccessible.insert(*memory);
     } else {
-      unseen.erase(*memory);
+      host_inaccessible.erase(*memory);
     }
   }
   return result;
@@ -91,7 +93,8 @@ VKAPI_ATTR VkResult VKAPI_CALL map(VkDevice device, VkDeviceMemory memory, VkDev
                                    VkDeviceSize size, VkMemoryMapFlags flags, void** data) {
   {
     const std::lock_guard lock(mutex);
-    if (unseen.contains(memory)) return refuse("vkMapMemory of memory that the host cannot access");
+    if (host_inaccessible.contains(memory))
+      return refuse("vkMapMemory of memory that the host cannot access");
   }
   return next<PFN_vkMapMemory>(device, "vkMapMemory")(device, memory, offset, size, flags, data);
 }

@@ -14,7 +14,7 @@
 
 namespace {
 
-bool asked(std::string_view fault) {
+bool is_requested(std::string_view fault) {
   const char* set = std::getenv("TRIPTYCH_SHIM");
   return set != nullptr && fault == set;
 }
@@ -44,12 +44,13 @@ extern "C" CL_API_ENTRY cl_int CL_API_CALL
 clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensions,
                        const size_t* offset, const size_t* global, const size_t* local,
                        cl_uint waits, const cl_event* wait_list, cl_event* event) {
-  const bool faulty = asked("once_only") || asked("abnormal_end") || asked("refused_launch");
+  const bool faulty =
+      is_requested("once_only") || is_requested("abnormal_end") || is_requested("refused_launch");
   if (faulty && repeated(kernel)) {
-    if (asked("refused_launch")) return CL_OUT_OF_RESOURCES;
+    if (is_requested("refused_launch")) return CL_OUT_OF_RESOURCES;
     const cl_int code = real<decltype(clEnqueueMarkerWithWaitList)>("clEnqueueMarkerWithWaitList")(
         queue, waits, wait_list, event);
-    if (asked("abnormal_end") && event != nullptr) {
+    if (is_requested("abnormal_end") && event != nullptr) {
       const std::lock_guard lock(mutex);
       abnormal.insert(*event);
     }
@@ -57,7 +58,7 @@ clEnqueueNDRangeKernel(cl_command_queue queue, cl_kernel kernel, cl_uint dimensi
   }
   const cl_int code = real<decltype(clEnqueueNDRangeKernel)>("clEnqueueNDRangeKernel")(
       queue, kernel, dimensions, offset, global, local, waits, wait_list, event);
-  if (asked("late_events") && event != nullptr) {
+  if (is_requested("late_events") && event != nullptr) {
     const std::lock_guard lock(mutex);
     late.insert(*event);
   }

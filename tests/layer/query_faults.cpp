@@ -27,7 +27,7 @@ void stuck(std::span<std::uint64_t> values) {
   std::ranges::fill(values, values.front());
 }
 
-void twice(std::span<std::uint64_t> values) {
+void doubled(std::span<std::uint64_t> values) {
   for (std::uint64_t& each : values) each *= 2;
 }
 
@@ -46,19 +46,19 @@ void crash(std::span<std::uint64_t>) {}
 void not_ready(std::span<std::uint64_t>) {}
 void untouched(std::span<std::uint64_t>) {}
 
-// Calls `Spoil` to change the 64-bit results of queries of the given type.
-template <VkQueryType type, auto Spoil>
+// Calls `Corrupt` to change the 64-bit results of queries of the given type.
+template <VkQueryType type, auto Corrupt>
 VKAPI_ATTR VkResult VKAPI_CALL query_results(VkDevice device, VkQueryPool pool, std::uint32_t first,
                                              std::uint32_t count, std::size_t size, void* data,
                                              VkDeviceSize stride, VkQueryResultFlags flags) {
   const std::lock_guard lock(mutex);
-  if (types[pool] == type && Spoil == &crash) std::raise(SIGSEGV);
-  if (types[pool] == type && Spoil == &not_ready) return VK_NOT_READY;
-  if (types[pool] == type && Spoil == &untouched) return VK_SUCCESS;
+  if (types[pool] == type && Corrupt == &crash) std::raise(SIGSEGV);
+  if (types[pool] == type && Corrupt == &not_ready) return VK_NOT_READY;
+  if (types[pool] == type && Corrupt == &untouched) return VK_SUCCESS;
   const VkResult result = next<PFN_vkGetQueryPoolResults>(device, "vkGetQueryPoolResults")(
       device, pool, first, count, size, data, stride, flags);
   if (types[pool] == type) {
-    Spoil(std::span(static_cast<std::uint64_t*>(data), size / sizeof(std::uint64_t)));
+    Corrupt(std::span(static_cast<std::uint64_t*>(data), size / sizeof(std::uint64_t)));
   }
   return result;
 }
@@ -81,7 +81,7 @@ std::span<const Hook> query_fault_hooks() {
       hook("untouched_clock", creates, &create_queries),
       hook("untouched_clock", reads, &query_results<timestamps, &untouched>),
       hook("double_statistics", creates, &create_queries),
-      hook("double_statistics", reads, &query_results<statistics, &twice>),
+      hook("double_statistics", reads, &query_results<statistics, &doubled>),
       hook("zero_statistics", creates, &create_queries),
       hook("zero_statistics", reads, &query_results<statistics, &zero>),
       hook("crashing_statistics", creates, &create_queries),

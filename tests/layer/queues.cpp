@@ -14,31 +14,31 @@ std::atomic<bool> pool_draws = true;
 
 // With `computeFamilyFirst`, the first queue family is one that supports neither graphics nor
 // timestamps.
-bool one_more() {
-  return asked("computeFamilyFirst");
+bool has_extra_family() {
+  return is_requested("computeFamilyFirst");
 }
 
 std::uint32_t driver_family(std::uint32_t family) {
-  return one_more() && family > 0 ? family - 1 : family;
+  return has_extra_family() && family > 0 ? family - 1 : family;
 }
 
 bool draws(std::uint32_t family) {
-  return !asked("graphicsQueue") && (!one_more() || family > 0);
+  return !is_requested("graphicsQueue") && (!has_extra_family() || family > 0);
 }
 
 VKAPI_ATTR void VKAPI_CALL families(VkPhysicalDevice physical, std::uint32_t* count,
                                     VkQueueFamilyProperties* properties) {
   const auto below = next<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
       physical, "vkGetPhysicalDeviceQueueFamilyProperties");
-  std::uint32_t of_driver = 0;
-  below(physical, &of_driver, nullptr);
-  std::vector<VkQueueFamilyProperties> all(of_driver);
-  below(physical, &of_driver, all.data());
-  if (one_more()) all.insert(all.begin(), all.front());
+  std::uint32_t count_below = 0;
+  below(physical, &count_below, nullptr);
+  std::vector<VkQueueFamilyProperties> all(count_below);
+  below(physical, &count_below, all.data());
+  if (has_extra_family()) all.insert(all.begin(), all.front());
   for (std::uint32_t family = 0; family < all.size(); ++family) {
     if (!draws(family)) all[family].queueFlags &= ~VkQueueFlags{VK_QUEUE_GRAPHICS_BIT};
-    const bool no_clock = asked("timestampValidBits") || (one_more() && family == 0);
-    if (no_clock) all[family].timestampValidBits = asked_number("timestampValidBits");
+    const bool no_clock = is_requested("timestampValidBits") || (has_extra_family() && family == 0);
+    if (no_clock) all[family].timestampValidBits = requested_number("timestampValidBits");
   }
   if (properties == nullptr) {
     *count = static_cast<std::uint32_t>(all.size());
@@ -72,7 +72,7 @@ VKAPI_ATTR void VKAPI_CALL begin_pass(VkCommandBuffer commands, const VkRenderPa
 
 VKAPI_ATTR void VKAPI_CALL write_timestamp(VkCommandBuffer commands, VkPipelineStageFlagBits stage,
                                            VkQueryPool pool, std::uint32_t query) {
-  if (asked("timestampValidBits") && asked_number("timestampValidBits") == 0) {
+  if (is_requested("timestampValidBits") && requested_number("timestampValidBits") == 0) {
     refuse("vkCmdWriteTimestamp: timestampValidBits = 0");
   }
   next<PFN_vkCmdWriteTimestamp>(commands, "vkCmdWriteTimestamp")(commands, stage, pool, query);

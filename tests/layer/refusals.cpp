@@ -20,13 +20,13 @@ std::set<VkSampler> linear;
 
 // Returns whether `used` exceeds the lowered limit, and reports it if so.
 bool exceeds(std::string_view limit, std::uint64_t used, std::string_view command) {
-  if (!asked(limit) || used <= asked_number(limit)) return false;
-  refuse(fmt::format("{}: {} exceeds {} = {}", command, used, limit, asked_number(limit)));
+  if (!is_requested(limit) || used <= requested_number(limit)) return false;
+  refuse(fmt::format("{}: {} exceeds {} = {}", command, used, limit, requested_number(limit)));
   return true;
 }
 
 bool lacks(std::string_view feature, bool used, std::string_view command) {
-  if (!asked(feature) || !used) return false;
+  if (!is_requested(feature) || !used) return false;
   refuse(fmt::format("{}: without {}", command, feature));
   return true;
 }

@@ -17,19 +17,20 @@ VkResult make_pipelines(VkDevice device, VkPipelineCache cache,
       device, cache, static_cast<std::uint32_t>(infos.size()), infos.data(), allocator, pipelines);
 }
 
-// Replaces vkCreateGraphicsPipelines. `Spoil` changes the state `member` of each pipeline.
-template <auto member, auto Spoil>
-VKAPI_ATTR VkResult VKAPI_CALL spoiled(VkDevice device, VkPipelineCache cache, std::uint32_t count,
-                                       const VkGraphicsPipelineCreateInfo* infos,
-                                       const VkAllocationCallbacks* allocator,
-                                       VkPipeline* pipelines) {
+// Replaces vkCreateGraphicsPipelines. `Corrupt` changes the state `member` of each pipeline.
+template <auto member, auto Corrupt>
+VKAPI_ATTR VkResult VKAPI_CALL create_corrupted(VkDevice device, VkPipelineCache cache,
+                                                std::uint32_t count,
+                                                const VkGraphicsPipelineCreateInfo* infos,
+                                                const VkAllocationCallbacks* allocator,
+                                                VkPipeline* pipelines) {
   using State = std::remove_cvref_t<decltype(*(infos->*member))>;
   std::vector<VkGraphicsPipelineCreateInfo> changed(infos, infos + count);
   std::vector<State> states(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     if (infos[i].*member == nullptr) continue;
     states[i] = *(infos[i].*member);
-    Spoil(states[i]);
+    Corrupt(states[i]);
     changed[i].*member = &states[i];
   }
   return make_pipelines(device, cache, changed, allocator, pipelines);
@@ -80,12 +81,14 @@ VKAPI_ATTR VkResult VKAPI_CALL unspecialized(VkDevice device, VkPipelineCache ca
       device, cache, count, changed.data(), allocator, pipelines);
 }
 
-template <auto Spoil>
+template <auto Corrupt>
 VKAPI_ATTR VkResult VKAPI_CALL sampler(VkDevice device, const VkSamplerCreateInfo* info,
-                                       const VkAllocationCallbacks* allocator, VkSampler* made) {
+                                       const VkAllocationCallbacks* allocator,
+                                       VkSampler* sampler_out) {
   VkSamplerCreateInfo changed = *info;
-  Spoil(changed);
-  return next<PFN_vkCreateSampler>(device, "vkCreateSampler")(device, &changed, allocator, made);
+  Corrupt(changed);
+  return next<PFN_vkCreateSampler>(device, "vkCreateSampler")(device, &changed, allocator,
+                                                              sampler_out);
 }
 
 void nearest(VkSamplerCreateInfo& info) {
@@ -103,14 +106,17 @@ constexpr const char* pipelines_command = "vkCreateGraphicsPipelines";
 
 std::span<const Hook> state_fault_hooks() {
   static const std::array hooks{
-      hook("half_pixel", pipelines_command, &spoiled<&Info::pViewportState, &half_pixel>),
+      hook("half_pixel", pipelines_command, &create_corrupted<&Info::pViewportState, &half_pixel>),
       hook("inverted_depth", pipelines_command,
-           &spoiled<&Info::pDepthStencilState, &inverted_depth>),
+           &create_corrupted<&Info::pDepthStencilState, &inverted_depth>),
       hook("no_depth_write", pipelines_command,
-           &spoiled<&Info::pDepthStencilState, &no_depth_write>),
-      hook("culled_front", pipelines_command, &spoiled<&Info::pRasterizationState, &culled_front>),
-      hook("culled_back", pipelines_command, &spoiled<&Info::pRasterizationState, &culled_back>),
-      hook("lost_alpha", pipelines_command, &spoiled<&Info::pColorBlendState, &lost_alpha>),
+           &create_corrupted<&Info::pDepthStencilState, &no_depth_write>),
+      hook("culled_front", pipelines_command,
+           &create_corrupted<&Info::pRasterizationState, &culled_front>),
+      hook("culled_back", pipelines_command,
+           &create_corrupted<&Info::pRasterizationState, &culled_back>),
+      hook("lost_alpha", pipelines_command,
+           &create_corrupted<&Info::pColorBlendState, &lost_alpha>),
       hook("unspecialized", "vkCreateComputePipelines", &unspecialized),
       hook("nearest_filter", "vkCreateSampler", &sampler<&nearest>),
       hook("repeated_edge", "vkCreateSampler", &sampler<&repeated>)};

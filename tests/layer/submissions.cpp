@@ -35,17 +35,18 @@ VKAPI_ATTR VkResult VKAPI_CALL begin_commands(VkCommandBuffer commands,
 // when they are submitted for the first time. With `lost_frames=n`, every n-th submission is
 // skipped.
 bool is_left_out(VkCommandBuffer commands, int number) {
-  if (asked("once_only")) {
+  if (is_requested("once_only")) {
     const std::lock_guard lock(mutex);
     return !executed.insert(commands).second;
   }
-  return asked("lost_frames") && number % static_cast<int>(asked_number("lost_frames")) == 0;
+  return is_requested("lost_frames") &&
+         number % static_cast<int>(requested_number("lost_frames")) == 0;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, std::uint32_t count,
                                       const VkSubmitInfo* submits, VkFence fence) {
   const int number = ++submissions;
-  if (asked("lost_after") && number > static_cast<int>(asked_number("lost_after"))) {
+  if (is_requested("lost_after") && number > static_cast<int>(requested_number("lost_after"))) {
     return VK_ERROR_DEVICE_LOST;
   }
   std::vector<VkSubmitInfo> changed(submits, submits + count);
@@ -78,7 +79,7 @@ struct AtExit {
   // The changes are parsed before this object exists, so that they are destroyed after it.
   AtExit() { static_cast<void>(changes()); }
   ~AtExit() {
-    if (asked("crash_at_exit") && submissions > 0) crash();
+    if (is_requested("crash_at_exit") && submissions > 0) crash();
   }
 };
 const AtExit at_exit;
@@ -114,8 +115,8 @@ constexpr const char* submits = "vkQueueSubmit";
 }  // namespace
 
 void end_device() {
-  if (asked("crash_with_device")) crash();
-  if (asked("hang_with_device")) hang();
+  if (is_requested("crash_with_device")) crash();
+  if (is_requested("hang_with_device")) hang();
 }
 
 std::span<const Hook> submission_hooks() {
