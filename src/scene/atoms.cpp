@@ -18,7 +18,7 @@ namespace triptych::scene {
 namespace {
 
 // The appearance of one element or type.
-struct Look {
+struct Appearance {
   double radius = 0;
   Rgb rgb{};
   double intensity = 0;
@@ -44,28 +44,28 @@ std::vector<std::size_t> ranks_of(const Atoms& atoms) {
 // Returns half the median distance between nearest neighbours, or ½ if all atoms are at the same
 // position.
 double radius_without_elements(const Atoms& atoms) {
-  constexpr double lonely_radius = 0.5;
+  constexpr double coincident_radius = 0.5;
   const auto distance = median_nearest_distance(atoms.places);
-  return distance ? *distance / 2 : lonely_radius;
+  return distance ? *distance / 2 : coincident_radius;
 }
 
-std::vector<Look> looks_of(const Atoms& atoms) {
+std::vector<Appearance> appearances_of(const Atoms& atoms) {
   constexpr double golden_ratio = 0.6180339887498949;  // gives successive ranks very different hues
   const std::vector<std::size_t> ranks = ranks_of(atoms);
   const bool radius_by_type = !atoms.elements && atoms.radii.empty();
   const double type_radius = radius_by_type ? radius_without_elements(atoms) : 0;
-  std::vector<Look> looks;
+  std::vector<Appearance> appearances;
   for (std::size_t kind = 0; kind < ranks.size(); ++kind) {
     const std::string& name = atoms.kind_names[kind];
     const auto rank = static_cast<double>(ranks[kind]);
-    Look look;
-    look.intensity = rank / static_cast<double>(ranks.size());
-    look.radius = atoms.elements ? van_der_waals_radius(name) * atoms.angstrom : type_radius;
+    Appearance appearance;
+    appearance.intensity = rank / static_cast<double>(ranks.size());
+    appearance.radius = atoms.elements ? van_der_waals_radius(name) * atoms.angstrom : type_radius;
     const double turns = golden_ratio * rank;
-    look.rgb = atoms.elements ? element_colour(name) : hue_colour(turns - std::floor(turns));
-    looks.push_back(look);
+    appearance.rgb = atoms.elements ? element_colour(name) : hue_colour(turns - std::floor(turns));
+    appearances.push_back(appearance);
   }
-  return looks;
+  return appearances;
 }
 
 // Returns the atoms' indices, sorted by the atoms' numbers. Rejects a number that appears twice.
@@ -76,9 +76,9 @@ std::vector<std::uint32_t> sorted_by_number(const Atoms& atoms, const LineReader
   if (atoms.order.empty()) return sorted;
   const auto number = [&atoms](std::uint32_t index) { return atoms.order[index]; };
   std::ranges::stable_sort(sorted, {}, number);
-  const auto twice = std::ranges::adjacent_find(sorted, {}, number);
-  if (twice != sorted.end()) {
-    const std::uint32_t second = *std::next(twice);
+  const auto duplicate = std::ranges::adjacent_find(sorted, {}, number);
+  if (duplicate != sorted.end()) {
+    const std::uint32_t second = *std::next(duplicate);
     reader.reject_at(
         first_line + static_cast<int>(second),
         fmt::format("atom number {} appears twice; atom numbers must be unique", number(second)));
@@ -136,9 +136,9 @@ std::uint32_t Atoms::kind(std::string_view name) {
 }
 
 ParticleSet to_particles(Atoms atoms, ColourKind colour, const LineReader& reader, int first_line) {
-  const std::vector<Look> looks = looks_of(atoms);
+  const std::vector<Appearance> appearances = appearances_of(atoms);
   const std::vector<std::uint32_t> sorted = sorted_by_number(atoms, reader, first_line);
-  const bool one_kind = looks.size() == 1;
+  const bool is_single_kind = appearances.size() == 1;
   const auto total = static_cast<double>(sorted.size());
   ParticleSet set;
   set.colour = colour;
@@ -146,11 +146,11 @@ ParticleSet to_particles(Atoms atoms, ColourKind colour, const LineReader& reade
   reserve(set, sorted.size());
   for (std::uint32_t id = 0; id < sorted.size(); ++id) {
     const std::uint32_t index = sorted[id];
-    const Look& look = looks[atoms.kinds[index]];
+    const Appearance& appearance = appearances[atoms.kinds[index]];
     const auto& place = atoms.places[index];
-    const double radius = atoms.radii.empty() ? look.radius : atoms.radii[index];
+    const double radius = atoms.radii.empty() ? appearance.radius : atoms.radii[index];
     if (!append(set, {place[0], place[1], place[2], radius}, id)) continue;
-    append_colour(set, look.rgb, one_kind ? id / total : look.intensity);
+    append_colour(set, appearance.rgb, is_single_kind ? id / total : appearance.intensity);
   }
   return set;
 }

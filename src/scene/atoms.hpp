@@ -34,7 +34,7 @@ struct Atoms {
 
   // Moves the kind names from `other` to this object. `kinds` must already contain indices into
   // these names.
-  void take_names(Atoms&& other) {
+  void move_names_from(Atoms&& other) {
     kind_names = std::move(other.kind_names);
     index_ = std::move(other.index_);
   }

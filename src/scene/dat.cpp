@@ -123,7 +123,7 @@ Volume read_dat(const std::filesystem::path& file, const Component& component) {
     volume.spacing = parse_spacings(spacing->value, volume.size, spacing->place);
   }
   RawVoxels source;
-  source.file = data_file_beside(file, data.value, data.place);
+  source.file = find_data_file(file, data.value, data.place);
   source.layout.type = parse_format(description.require("format", "Format"));
   source.layout.big_endian = parse_endianness(endianness_in(description));
   source.component = component;

@@ -130,8 +130,8 @@ std::string element_of_ion(std::string_view atom, std::string_view residue) {
   if (atom == residue || residue == "ION" || residue == "IONS") return symbol;
   // One of the two names may be an element's symbol, such as NA, while the other is a force field's
   // spelling of the same ion, such as SOD.
-  const bool spelled = !ion_of(residue).empty() || !ion_of(atom).empty();
-  return spelled && ion_symbol(residue) == symbol ? symbol : std::string{};
+  const bool is_known_spelling = !ion_of(residue).empty() || !ion_of(atom).empty();
+  return is_known_spelling && ion_symbol(residue) == symbol ? symbol : std::string{};
 }
 
 std::string organic_element(std::string_view letters) {
@@ -142,14 +142,15 @@ std::string organic_element(std::string_view letters) {
 
 std::string guessed_element(std::string_view letters) {
   if (letters.empty()) return std::string(unknown_element);
-  const std::string_view two = letters.substr(0, 2);
+  const std::string_view first_two = letters.substr(0, 2);
   static const Names clear = split_names(clear_symbols);
-  const bool halogen = two == "CL" || two == "BR";
-  if (clear.contains(two) && (letters.size() == 2 || halogen)) return proper_symbol(two);
+  const bool halogen = first_two == "CL" || first_two == "BR";
+  if (clear.contains(first_two) && (letters.size() == 2 || halogen))
+    return proper_symbol(first_two);
   if (one_letter_symbols.find(letters.front()) != std::string_view::npos) {
     return std::string(letters.substr(0, 1));
   }
-  return atomic_number(two) ? proper_symbol(two) : std::string(unknown_element);
+  return atomic_number(first_two) ? proper_symbol(first_two) : std::string(unknown_element);
 }
 
 // Returns the element that follows from the residue, or an empty string if the residue is not
@@ -277,7 +278,7 @@ void name_elements(Atoms& atoms, bool aligned) {
     guesses[element.symbol] += counts[kind];
   }
   for (std::uint32_t& kind : atoms.kinds) kind = renamed[kind];
-  atoms.take_names(std::move(named));
+  atoms.move_names_from(std::move(named));
   if (guessed > 0) {
     atoms.notes.push_back(
         fmt::format("the file does not specify the element of {} atom{} in unknown residues; the "

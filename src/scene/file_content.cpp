@@ -17,27 +17,27 @@ namespace triptych::scene {
 
 namespace {
 
-// Calls `take` with each piece of the decompressed stream.
+// Calls `consume` with each piece of the decompressed stream.
 template <typename Take>
 void unpack(const std::vector<std::byte>& packed, Packing packing, const std::string& name,
-            ProgressSteps& steps, Take&& take) {
+            ProgressSteps& steps, Take&& consume) {
   // The input is read in small pieces, so that progress is reported at least once for each per cent
   // of the input.
-  const std::size_t sip = std::max<std::size_t>(packed.size() / 200, 1);
-  std::size_t taken = 0;
+  const std::size_t most_at_once = std::max<std::size_t>(packed.size() / 200, 1);
+  std::size_t consumed = 0;
   const ByteSource source = unpacked(
       [&](std::span<std::byte> out) {
-        const std::size_t size = std::min({out.size(), packed.size() - taken, sip});
-        if (size > 0) std::memcpy(out.data(), packed.data() + taken, size);
-        taken += size;
-        steps.reach(taken);
+        const std::size_t size = std::min({out.size(), packed.size() - consumed, most_at_once});
+        if (size > 0) std::memcpy(out.data(), packed.data() + consumed, size);
+        consumed += size;
+        steps.advance_to(consumed);
         return size;
       },
       packing, name);
   std::vector<std::byte> piece(std::size_t{1} << 20);
   for (;;) {
     const std::size_t got = source(piece);
-    take(std::span<const std::byte>(piece).first(got));
+    consume(std::span<const std::byte>(piece).first(got));
     if (got < piece.size()) return;
   }
 }
@@ -61,8 +61,8 @@ std::vector<char> read_content(const std::filesystem::path& file, const Progress
   const std::vector<std::byte> bytes = core::read_file(file);
   const std::string name = file.string();
   const Packing packing = packing_of(bytes, name);
-  const bool promises_gzip = lower_case(file.extension().string()) == ".gz";
-  if (promises_gzip && packing == Packing::none) {
+  const bool has_gzip_extension = lower_case(file.extension().string()) == ".gz";
+  if (has_gzip_extension && packing == Packing::none) {
     throw core::InputError(
         {.file = name},
         "the name ends in .gz, but the content is not a gzip stream; if the file "

@@ -22,7 +22,7 @@ struct Conversion {
   std::string_view command;
 };
 
-constexpr std::array<Conversion, 14> of_particles{{
+constexpr std::array<Conversion, 14> particle_conversions{{
     {".xtc .trr .tng .tpr", "a GROMACS file", ".gro",
      "gmx trjconv -f IN.xtc -s RUN.tpr -o OUT.gro"},
     {".dcd .psf .crd .prmtop .parm7 .inpcrd .rst7 .nc .ncdf .mdcrd", "a CHARMM, NAMD or AMBER file",
@@ -53,7 +53,7 @@ constexpr std::array<Conversion, 14> of_particles{{
      "empty line, and one line 'C x y z' per point"},
 }};
 
-constexpr std::array<Conversion, 14> of_volumes{{
+constexpr std::array<Conversion, 14> volume_conversions{{
     {".dcm .dicom .ima", "one DICOM slice", ".nii", "dcm2niix -o . FOLDER"},
     {".mgz .mgh", "a FreeSurfer volume", ".nii.gz", "mri_convert IN.mgz OUT.nii.gz"},
     {".mnc", "a MINC volume", ".nii", "mnc2nii IN.mnc OUT.nii"},
@@ -123,11 +123,11 @@ std::string volume_endings() {
 }
 
 std::string particle_advice(std::string_view ending) {
-  return advice(ending, of_particles, particle_endings());
+  return advice(ending, particle_conversions, particle_endings());
 }
 
 std::string volume_advice(std::string_view ending) {
-  return advice(ending, of_volumes, volume_endings());
+  return advice(ending, volume_conversions, volume_endings());
 }
 
 }  // namespace triptych::scene

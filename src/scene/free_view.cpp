@@ -78,14 +78,15 @@ FreeView free_view_near(std::string_view camera) {
   }
   constexpr double fov_deg = 60;
   const Box cube{};
-  const Camera there = camera_at(camera, cube, fov_deg);
+  const Camera on_orbit = camera_at(camera, cube, fov_deg);
   const Camera orbit = camera_at("orbit_y:0/1", cube, fov_deg);
   const glm::dvec3 centre = 0.5 * (cube.lo + cube.hi);
-  const glm::dvec3 outward = -there.forward;
-  return {.azimuth_deg = std::atan2(outward.x, outward.z) * degrees,
-          .elevation_deg = std::asin(std::clamp(outward.y, -1.0, 1.0)) * degrees,
-          .distance = std::clamp(glm::length(there.eye - centre) / glm::length(orbit.eye - centre),
-                                 FreeView::nearest, FreeView::farthest)};
+  const glm::dvec3 outward = -on_orbit.forward;
+  return {
+      .azimuth_deg = std::atan2(outward.x, outward.z) * degrees,
+      .elevation_deg = std::asin(std::clamp(outward.y, -1.0, 1.0)) * degrees,
+      .distance = std::clamp(glm::length(on_orbit.eye - centre) / glm::length(orbit.eye - centre),
+                             FreeView::nearest, FreeView::farthest)};
 }
 
 FreeView turned(FreeView view, double right, double down) {
@@ -97,8 +98,8 @@ FreeView turned(FreeView view, double right, double down) {
 }
 
 FreeView approached(FreeView view, double notches) {
-  constexpr double share_of_a_notch = 0.9;
-  view.distance = std::clamp(view.distance * std::pow(share_of_a_notch, notches), FreeView::nearest,
+  constexpr double scale_per_notch = 0.9;
+  view.distance = std::clamp(view.distance * std::pow(scale_per_notch, notches), FreeView::nearest,
                              FreeView::farthest);
   return view;
 }

@@ -160,7 +160,7 @@ std::array<Blob, 40> sparse_blobs() {
 
 // Returns the range [first, last) of voxels along one axis whose centres lie within `radius` of
 // `centre`.
-std::array<int, 2> touched(double centre, double radius, int n) {
+std::array<int, 2> covered_indices(double centre, double radius, int n) {
   return {std::max(0, static_cast<int>(std::floor((centre - radius) * n))),
           std::min(n, static_cast<int>(std::floor((centre + radius) * n)) + 1)};
 }
@@ -168,9 +168,9 @@ std::array<int, 2> touched(double centre, double radius, int n) {
 Volume sparse_field(std::array<int, 3> size) {
   Volume volume = fill<std::uint8_t>(size, 255, [](int, int, int) { return std::uint8_t{0}; });
   for (const Blob& blob : sparse_blobs()) {
-    const auto is = touched(blob.centre.x, blob.radius, size[0]);
-    const auto js = touched(blob.centre.y, blob.radius, size[1]);
-    const auto ks = touched(blob.centre.z, blob.radius, size[2]);
+    const auto is = covered_indices(blob.centre.x, blob.radius, size[0]);
+    const auto js = covered_indices(blob.centre.y, blob.radius, size[1]);
+    const auto ks = covered_indices(blob.centre.z, blob.radius, size[2]);
     for (int k = ks[0]; k < ks[1]; ++k) {
       for (int j = js[0]; j < js[1]; ++j) {
         for (int i = is[0]; i < is[1]; ++i) {

@@ -90,7 +90,7 @@ ParticleSet read_gro(LineReader& reader, std::uint64_t frame, ColourKind colour)
     }
     Atoms atoms;
     atoms.angstrom = nanometre;
-    atoms.places.reserve(reader.room(count, places_begin));
+    atoms.places.reserve(reader.reservation(count, places_begin));
     std::size_t width = 0;
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::string_view line = reader.require(atoms_wanted);

@@ -143,7 +143,7 @@ ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind
   const int first_line = reader.line() + 1;
   Atoms atoms;
   atoms.elements = false;
-  atoms.places.reserve(reader.room(*count, 10));
+  atoms.places.reserve(reader.reservation(*count, 10));
   Words words;
   for (std::uint64_t i = 0; i < *count; ++i) {
     split_words_into(without_comment(reader.require(atoms_wanted)), words);

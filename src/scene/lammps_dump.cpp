@@ -187,7 +187,7 @@ ParticleSet read_lammps_dump(LineReader& reader, std::uint64_t frame, ColourKind
     const Cell cell = header.cell.value_or(Cell{});
     Atoms atoms;
     atoms.elements = columns.element.has_value();
-    atoms.places.reserve(reader.room(*header.count, 2 * columns.count));
+    atoms.places.reserve(reader.reservation(*header.count, 2 * columns.count));
     RowReader rows(atoms, columns, cell, reader);
     const int first_line = reader.line() + 1;
     DumpWords row;

@@ -17,7 +17,7 @@ std::optional<std::string_view> LineReader::next() {
   if (line.ends_with('\r')) line.remove_suffix(1);
   begin_ = end + 1;
   ++line_;
-  progress_.reach(begin_);
+  progress_.advance_to(begin_);
   return line;
 }
 
@@ -68,7 +68,7 @@ std::int64_t LineReader::integer(std::string_view word, std::string_view what) c
   return *value;
 }
 
-std::size_t LineReader::room(std::uint64_t claimed, std::size_t shortest) const {
+std::size_t LineReader::reservation(std::uint64_t claimed, std::size_t shortest) const {
   const std::size_t left = begin_ < text_.size() ? text_.size() - begin_ : 0;
   return static_cast<std::size_t>(std::min<std::uint64_t>(claimed, left / shortest + 1));
 }

@@ -44,7 +44,7 @@ class LineReader {
   // Returns the number of entries to reserve memory for. This is `claimed`, but at most the number
   // of lines that the rest of the text can contain if each line has at least `shortest` characters.
   // A file that claims too many entries therefore cannot exhaust the memory.
-  [[nodiscard]] std::size_t room(std::uint64_t claimed, std::size_t shortest) const;
+  [[nodiscard]] std::size_t reservation(std::uint64_t claimed, std::size_t shortest) const;
 
   [[nodiscard]] int line() const { return line_; }
   [[nodiscard]] const std::string& file() const { return file_; }

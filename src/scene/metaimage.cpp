@@ -64,10 +64,10 @@ class MetaHeader {
     }
     return *field;
   }
-  // Returns whether the value of a key is True, or `otherwise` if the key is missing.
-  [[nodiscard]] bool flag(const std::string& key, bool otherwise) const {
+  // Returns whether the value of a key is True, or `default_value` if the key is missing.
+  [[nodiscard]] bool flag(const std::string& key, bool default_value) const {
     const MetaField* field = find(key);
-    if (field == nullptr) return otherwise;
+    if (field == nullptr) return default_value;
     const std::string value = lower_case(field->value);
     if (value == "true" || value == "1") return true;
     if (value == "false" || value == "0") return false;
@@ -147,7 +147,7 @@ std::string first_three(const MetaField& field, std::uint64_t dimensions) {
   return fmt::format("{}", fmt::join(words, " "));
 }
 
-void take_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layout) {
+void set_meta_sizes(const MetaHeader& header, Volume& volume, ValueLayout& layout) {
   const MetaField& dims = header.require("NDims");
   const std::uint64_t dimensions = whole_number(dims);
   if (dimensions != 3 && dimensions != 4) {
@@ -214,7 +214,7 @@ RawVoxels locate_voxels(const MetaHeader& header, const std::filesystem::path& f
   const std::string name = lower_case(data.value);
   if (!header.listed_files().empty()) {
     for (const MetaField& each : header.listed_files()) {
-      const auto found = data_file_beside(file, each.value, each.place);
+      const auto found = find_data_file(file, each.value, each.place);
       if (source.file.empty()) {
         source.file = found;
       } else {
@@ -230,7 +230,7 @@ RawVoxels locate_voxels(const MetaHeader& header, const std::filesystem::path& f
                            "file name patterns are not supported; expected the file names after "
                            "LIST, one per line");
   } else {
-    source.file = data_file_beside(file, data.value, data.place);
+    source.file = find_data_file(file, data.value, data.place);
   }
   if (const MetaField* skip = header.find("headersize")) {
     const auto bytes = parse_number<std::int64_t>(skip->value);
@@ -265,7 +265,7 @@ Volume read_metaimage(const std::filesystem::path& file, const Component& compon
   }
   Volume volume;
   RawVoxels source = locate_voxels(header, file);
-  take_meta_sizes(header, volume, source.layout);
+  set_meta_sizes(header, volume, source.layout);
   note_directions(header, volume);
   const MetaField& type = header.require("ElementType");
   // A type such as "MET_UCHAR_ARRAY" is one of several ways to declare that a voxel has several

@@ -285,8 +285,8 @@ Atoms read_pairs(Tokens& tokens, std::uint64_t frame, const LineReader& reader) 
 // Detects truncated files. Some programs, such as those of the PDB, end the heading and every
 // category with a line '#'. If a file does so before the atoms, but the category of the atoms is
 // the last one and has no final '#', the file is probably truncated. The reader rejects such a file
-// if there are at least `enough` lines '#' between the heading and the atoms. If there are fewer,
-// it only adds a note, because some programs write '#' only between categories.
+// if there are at least `conclusive_marks` lines '#' between the heading and the atoms. If there
+// are fewer, it only adds a note, because some programs write '#' only between categories.
 class ClosingMarks {
  public:
   void heading(const Tokens& tokens) {
@@ -296,14 +296,14 @@ class ClosingMarks {
   void atoms_follow(const Tokens& tokens) { closed_ = tokens.marks() - at_heading_; }
   void atoms_end(Tokens& tokens, Atoms& atoms, const LineReader& reader) const {
     if (tokens.peek() || tokens.marks_before() > 0 || !closes_heading_ || closed_ == 0) return;
-    if (closed_ >= enough) reader.reject("unexpected end of file; expected '#'");
+    if (closed_ >= conclusive_marks) reader.reject("unexpected end of file; expected '#'");
     atoms.notes.emplace_back(
         "other sections of the file end with '#', but the atom section does not; the file may be "
         "truncated, so atoms may be missing");
   }
 
  private:
-  static constexpr std::uint64_t enough = 3;
+  static constexpr std::uint64_t conclusive_marks = 3;
   bool closes_heading_ = false;
   std::uint64_t at_heading_ = 0;
   std::uint64_t closed_ = 0;
@@ -325,15 +325,15 @@ ParticleSet read_mmcif(LineReader& reader, std::uint64_t frame, ColourKind colou
   Tokens tokens(reader);
   std::optional<Atoms> atoms;
   ClosingMarks marks;
-  std::uint64_t others = 0;
+  std::uint64_t further_blocks = 0;
   std::string_view other;
   while (tokens.peek()) {
     const Token token = *tokens.peek();
-    constexpr std::size_t enough = 20;
-    const std::string word = lower_case(token.text.substr(0, enough));
+    constexpr std::size_t longest_keyword = 20;
+    const std::string word = lower_case(token.text.substr(0, longest_keyword));
     if (token.is_tag() && word.starts_with(category)) {
       if (atoms) {
-        ++others;
+        ++further_blocks;
         tokens.take();
         continue;
       }
@@ -355,7 +355,7 @@ ParticleSet read_mmcif(LineReader& reader, std::uint64_t frame, ColourKind colou
     reader.reject(fmt::format("expected a loop over {}*, found none{}{}", category,
                               other.empty() ? "" : ": ", other));
   }
-  if (others > 0) {
+  if (further_blocks > 0) {
     atoms->notes.emplace_back(
         "the file has atoms in several data blocks; only the atoms of the first block are read");
   }

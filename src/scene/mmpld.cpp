@@ -46,18 +46,18 @@ class Bytes {
       : content_(content), file_(std::move(file)) {}
 
   template <typename T>
-  T take(std::string_view what) {
+  T read(std::string_view what) {
     need(sizeof(T), what);
     T value;
     std::memcpy(&value, content_.data() + at_, sizeof(T));
     at_ += sizeof(T);
     return value;
   }
-  std::span<const char> take_many(std::uint64_t count, std::size_t each, std::string_view what) {
+  std::span<const char> read_many(std::uint64_t count, std::size_t each, std::string_view what) {
     if (each > 0 && count > (content_.size() - at_) / each) need(content_.size() + 1, what);
-    const auto taken = content_.subspan(at_, static_cast<std::size_t>(count) * each);
-    at_ += taken.size();
-    return taken;
+    const auto bytes = content_.subspan(at_, static_cast<std::size_t>(count) * each);
+    at_ += bytes.size();
+    return bytes;
   }
   void move_to(std::uint64_t at) { at_ = static_cast<std::size_t>(at); }
   [[nodiscard]] std::uint64_t at() const { return at_; }
@@ -97,8 +97,8 @@ struct List {
 
 List read_list(Bytes& bytes, int version) {
   List list;
-  const auto vertex = bytes.take<std::uint8_t>("a vertex type");
-  const auto colour = bytes.take<std::uint8_t>("a colour type");
+  const auto vertex = bytes.read<std::uint8_t>("a vertex type");
+  const auto colour = bytes.read<std::uint8_t>("a colour type");
   if (vertex >= vertex_bytes.size()) {
     bytes.reject(fmt::format("expected a vertex type from 0 to 4, found {}", vertex));
   }
@@ -108,17 +108,17 @@ List read_list(Bytes& bytes, int version) {
   list.vertex = static_cast<VertexType>(vertex);
   list.colour = static_cast<ColourType>(colour);
   if (list.vertex != VertexType::none && list.vertex != VertexType::float_xyzr) {
-    list.radius = bytes.take<float>("the list's radius");
+    list.radius = bytes.read<float>("the list's radius");
   }
   if (list.colour == ColourType::none) {
-    const auto rgba = bytes.take<std::array<std::uint8_t, 4>>("the list's colour");
+    const auto rgba = bytes.read<std::array<std::uint8_t, 4>>("the list's colour");
     for (std::size_t i = 0; i < 3; ++i) list.rgb.at(i) = rgba.at(i) / 255.0;
   }
   if (list.colour == ColourType::float_intensity || list.colour == ColourType::double_intensity) {
-    list.lo = bytes.take<float>("the list's lowest intensity");
-    list.hi = bytes.take<float>("the list's highest intensity");
+    list.lo = bytes.read<float>("the list's lowest intensity");
+    list.hi = bytes.read<float>("the list's highest intensity");
   }
-  list.count = bytes.take<std::uint64_t>("the list's number of particles");
+  list.count = bytes.read<std::uint64_t>("the list's number of particles");
   if (list.count > most_particles) {
     bytes.reject(
         fmt::format("too many particles: {} (the limit is {})", list.count, most_particles));
@@ -127,12 +127,12 @@ List read_list(Bytes& bytes, int version) {
     bytes.reject(fmt::format("expected a list with positions, found {} particles without positions",
                              list.count));
   }
-  if (version >= 103) static_cast<void>(bytes.take_many(6, sizeof(float), "the list's box"));
-  list.data = bytes.take_many(list.count, list.stride(), "the list's particles");
+  if (version >= 103) static_cast<void>(bytes.read_many(6, sizeof(float), "the list's box"));
+  list.data = bytes.read_many(list.count, list.stride(), "the list's particles");
   if (version == 101) {  // skips the clusters: their number, the size of their data, and the data
-    static_cast<void>(bytes.take<std::uint32_t>("the number of clusters"));
-    const auto size = bytes.take<std::uint64_t>("the size of the clusters");
-    static_cast<void>(bytes.take_many(size, 1, "the clusters"));
+    static_cast<void>(bytes.read<std::uint32_t>("the number of clusters"));
+    const auto size = bytes.read<std::uint64_t>("the size of the clusters");
+    static_cast<void>(bytes.read_many(size, 1, "the clusters"));
   }
   return list;
 }
@@ -141,18 +141,18 @@ List read_list(Bytes& bytes, int version) {
 // position at which the frame ends.
 std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
   constexpr std::array<char, 6> magic{'M', 'M', 'P', 'L', 'D', '\0'};
-  if (bytes.take<std::array<char, 6>>("'MMPLD'") != magic) {
+  if (bytes.read<std::array<char, 6>>("'MMPLD'") != magic) {
     bytes.move_to(0);
     bytes.reject("expected 'MMPLD' and a zero byte");
   }
-  version = bytes.take<std::uint16_t>("the version");
+  version = bytes.read<std::uint16_t>("the version");
   if (version < 100 || version > 103) {
     bytes.reject(fmt::format("expected a version from 100 to 103, found {}", version));
   }
-  const auto frames = bytes.take<std::uint32_t>("the number of frames");
-  static_cast<void>(bytes.take_many(12, sizeof(float), "the data box and the clipping box"));
+  const auto frames = bytes.read<std::uint32_t>("the number of frames");
+  static_cast<void>(bytes.read_many(12, sizeof(float), "the data box and the clipping box"));
   const std::uint64_t table = bytes.at();
-  const auto offsets = bytes.take_many(std::uint64_t{frames} + 1, 8, "the frame table");
+  const auto offsets = bytes.read_many(std::uint64_t{frames} + 1, 8, "the frame table");
   if (frame >= frames) {
     bytes.reject(
         fmt::format("there is no frame {}; number of frames in the file: {} (the first is frame 0)",
@@ -248,8 +248,8 @@ ParticleSet read_mmpld(std::span<const char> content, const std::string& file, s
   Bytes bytes(content, file);
   int version = 0;
   const std::uint64_t end = find_frame(bytes, frame, version);
-  if (version >= 102) static_cast<void>(bytes.take<float>("the frame's time"));
-  const auto list_count = bytes.take<std::uint32_t>("the number of lists");
+  if (version >= 102) static_cast<void>(bytes.read<float>("the frame's time"));
+  const auto list_count = bytes.read<std::uint32_t>("the number of lists");
   std::vector<List> lists;
   std::uint64_t total = 0;
   for (std::uint32_t i = 0; i < list_count; ++i) {
@@ -273,7 +273,7 @@ ParticleSet read_mmpld(std::span<const char> content, const std::string& file, s
     const std::size_t colour_at = vertex_bytes.at(static_cast<std::size_t>(list.vertex));
     for (std::uint64_t i = 0; i < list.count; ++i, ++id) {
       const char* particle = list.data.data() + i * list.stride();
-      progress.reach(static_cast<std::uint64_t>(particle - content.data()));
+      progress.advance_to(static_cast<std::uint64_t>(particle - content.data()));
       if (!append(set, sphere_of(list, particle), id)) continue;
       const Colour shown = colour_of(list, particle + colour_at);
       const double rank = lists.size() > 1

@@ -61,7 +61,7 @@ class Tree {
 }  // namespace
 
 std::optional<double> median_nearest_distance(std::vector<Place> places) {
-  constexpr std::size_t most_asked = 100'000;
+  constexpr std::size_t most_queries = 100'000;
   std::erase_if(places, [](const Place& place) {
     return !std::ranges::all_of(place,
                                 [](double x) { return std::isfinite(static_cast<float>(x)); });
@@ -69,13 +69,13 @@ std::optional<double> median_nearest_distance(std::vector<Place> places) {
   std::ranges::sort(places);
   places.erase(std::unique(places.begin(), places.end()), places.end());
   if (places.size() < 2) return std::nullopt;
-  const std::size_t stride = (places.size() + most_asked - 1) / most_asked;
-  std::vector<Place> asked;
-  for (std::size_t i = 0; i < places.size(); i += stride) asked.push_back(places[i]);
+  const std::size_t stride = (places.size() + most_queries - 1) / most_queries;
+  std::vector<Place> queries;
+  for (std::size_t i = 0; i < places.size(); i += stride) queries.push_back(places[i]);
   const Tree tree(places);
   std::vector<double> nearest;
-  nearest.reserve(asked.size());
-  for (const Place& place : asked) nearest.push_back(tree.nearest_squared(place));
+  nearest.reserve(queries.size());
+  for (const Place& place : queries) nearest.push_back(tree.nearest_squared(place));
   const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
   std::ranges::nth_element(nearest, middle);
   return std::sqrt(*middle);

@@ -167,7 +167,7 @@ const Datatype& datatype_of(const NiftiHeader& header) {
 }
 
 // Sets the sizes of the three spatial axes. Returns the product of the sizes of all further axes.
-std::uint64_t take_nifti_sizes(const NiftiHeader& header, Volume& volume) {
+std::uint64_t set_nifti_sizes(const NiftiHeader& header, Volume& volume) {
   const std::int64_t axes = header.dim(0);
   if (axes < 3 || axes > 7) {
     header.reject(fmt::format("the volume has {} dimensions; expected 3 to 7", axes));
@@ -268,7 +268,8 @@ std::string unit_name(int code) {
 }
 
 // Returns the .img file that belongs to a .hdr file. Either may be compressed.
-std::filesystem::path image_beside(const std::filesystem::path& file, const NiftiHeader& header) {
+std::filesystem::path find_voxel_file(const std::filesystem::path& file,
+                                      const NiftiHeader& header) {
   std::filesystem::path stem = file;
   const std::string last = lower_case(file.extension().string());
   if (last == ".gz" || last == ".bz2") stem.replace_extension();
@@ -304,7 +305,7 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   const Datatype& datatype = datatype_of(header);
   Volume volume;
   RawVoxels source;
-  const std::uint64_t further = take_nifti_sizes(header, volume);
+  const std::uint64_t further = set_nifti_sizes(header, volume);
   if (datatype.components > 1 && further > 1) {
     header.reject(
         "the volume has both colour channels and a fourth dimension; only one of them "
@@ -313,7 +314,7 @@ Volume read_nifti(const std::filesystem::path& file, const Component& component)
   volume.spacing = spacing_of(header, volume, file.string());
   volume.facts.unit = unit_name(header.units());
   note_orientation(header, volume);
-  source.file = header.is_single_file() ? file : image_beside(file, header);
+  source.file = header.is_single_file() ? file : find_voxel_file(file, header);
   source.packing = packing_of_file(source.file);
   source.start = start_of_voxels(header);
   if (header.is_single_file() && header.vox_offset() == 0) {

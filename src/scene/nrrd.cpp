@@ -77,8 +77,8 @@ Volume read_nrrd(const std::filesystem::path& file, const Component& component) 
   Volume volume;
   ValueLayout layout;
   layout.type = parse_type(header.require("type"));
-  const nrrd::LeftOut left_out = nrrd::parse_axes(header, volume, layout);
-  nrrd::parse_spacing(header, left_out, volume);
+  const nrrd::ComponentAxis component_axis = nrrd::parse_axes(header, volume, layout);
+  nrrd::parse_spacing(header, component_axis, volume);
   volume.facts.unit = nrrd::unit_of(header);
   RawVoxels source = nrrd::locate(header, file);
   source.layout = layout;

@@ -20,7 +20,7 @@ namespace {
 using Vector = Vector3;
 
 // Removes a vector "(a,b,c)" from the beginning of `text`, and returns its numbers.
-Vector take_vector(std::string_view& text, const core::FilePlace& place) {
+Vector parse_vector(std::string_view& text, const core::FilePlace& place) {
   const std::size_t open = text.find_first_not_of(" \t");
   const std::size_t close = text.find(')');
   if (open == std::string_view::npos || text[open] != '(' || close == std::string_view::npos) {
@@ -46,18 +46,18 @@ Vector take_vector(std::string_view& text, const core::FilePlace& place) {
   return vector;
 }
 
-std::array<Vector, 3> parse_directions(const Field& field, const LeftOut& left_out) {
+std::array<Vector, 3> parse_directions(const Field& field, const ComponentAxis& component_axis) {
   std::string_view text = field.value;
   std::array<Vector, 3> axes{};
-  const std::size_t count = left_out ? 4 : 3;
+  const std::size_t count = component_axis ? 4 : 3;
   for (std::size_t axis = 0, i = 0; axis < count; ++axis) {
     constexpr std::string_view none = "none";
-    if (axis != left_out) {
-      axes.at(i++) = take_vector(text, field.place);
+    if (axis != component_axis) {
+      axes.at(i++) = parse_vector(text, field.place);
     } else if (text = trimmed(text); lower_case(text.substr(0, none.size())) == none) {
       text.remove_prefix(none.size());
     } else {
-      static_cast<void>(take_vector(text, field.place));
+      static_cast<void>(parse_vector(text, field.place));
     }
   }
   if (!trimmed(text).empty()) {
@@ -81,17 +81,18 @@ std::array<double, 3> lengths_of(const std::array<Vector, 3>& axes, const std::a
 }
 
 // Returns the words of a field with one word per axis, without the word for the component axis.
-std::vector<std::string_view> words_of_axes(std::string_view value, const LeftOut& left_out) {
+std::vector<std::string_view> words_of_axes(std::string_view value,
+                                            const ComponentAxis& component_axis) {
   auto words = split_words(value);
-  if (left_out && words.size() == 4) {
-    words.erase(words.begin() + static_cast<std::ptrdiff_t>(*left_out));
+  if (component_axis && words.size() == 4) {
+    words.erase(words.begin() + static_cast<std::ptrdiff_t>(*component_axis));
   }
   return words;
 }
 
 // Returns the positions at which the axes begin or end. Unknown positions are NaN.
-Vector parse_ends(const Field& field, const LeftOut& left_out) {
-  const auto words = words_of_axes(field.value, left_out);
+Vector parse_ends(const Field& field, const ComponentAxis& component_axis) {
+  const auto words = words_of_axes(field.value, component_axis);
   Vector ends{};
   if (words.size() != ends.size()) {
     throw core::InputError(field.place,
@@ -111,10 +112,10 @@ Vector parse_ends(const Field& field, const LeftOut& left_out) {
 // Returns, for each axis, whether the first and last samples are at the ends of the axis. Otherwise
 // samples are in the middle of cells, which is also the default of the NRRD reference
 // implementation.
-std::array<bool, 3> parse_node_centred(const Field* field, const LeftOut& left_out) {
+std::array<bool, 3> parse_node_centred(const Field* field, const ComponentAxis& component_axis) {
   std::array<bool, 3> node{};
   if (field == nullptr) return node;
-  const auto words = words_of_axes(field->value, left_out);
+  const auto words = words_of_axes(field->value, component_axis);
   if (words.size() != node.size()) {
     throw core::InputError(field->place,
                            fmt::format("expected 3 centerings, got {}", words.size()));
@@ -132,15 +133,15 @@ std::array<bool, 3> parse_node_centred(const Field* field, const LeftOut& left_o
 
 // Computes the spacing from the ends of the axes. Returns nullopt if no axis has known ends.
 std::optional<Vector> spacing_of_ends(const Header& header, const std::array<int, 3>& size,
-                                      const LeftOut& left_out) {
+                                      const ComponentAxis& component_axis) {
   const Field* lowest = header.find("axis mins");
   const Field* highest = header.find("axis maxs");
   if (lowest == nullptr || highest == nullptr) return std::nullopt;
-  const Vector begin = parse_ends(*lowest, left_out);
-  const Vector end = parse_ends(*highest, left_out);
+  const Vector begin = parse_ends(*lowest, component_axis);
+  const Vector end = parse_ends(*highest, component_axis);
   const auto is_nan = [](double each) { return std::isnan(each); };
   if (std::ranges::all_of(begin, is_nan) && std::ranges::all_of(end, is_nan)) return std::nullopt;
-  const std::array<bool, 3> node = parse_node_centred(header.find("centerings"), left_out);
+  const std::array<bool, 3> node = parse_node_centred(header.find("centerings"), component_axis);
   Vector spacing{};
   for (std::size_t i = 0; i < 3; ++i) {
     const double length = std::abs(end.at(i) - begin.at(i));
@@ -200,7 +201,7 @@ void require_places(const Field& kinds) {
 
 // Finds the component axis among four axes. This is the axis whose kind is not spatial, or else the
 // axis without a direction, or else the only axis of size 1.
-std::size_t component_axis(const Header& header, const std::vector<std::string_view>& sizes) {
+std::size_t find_component_axis(const Header& header, const std::vector<std::string_view>& sizes) {
   const core::FilePlace& place = header.require("dimension").place;
   std::vector<std::size_t> found;
   if (const Field* kinds = header.find("kinds")) {
@@ -238,7 +239,7 @@ std::size_t component_axis(const Header& header, const std::vector<std::string_v
 
 }  // namespace
 
-LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
+ComponentAxis parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
   const Field& dimension = header.require("dimension");
   const Field& sizes = header.require("sizes");
   const auto axes = parse_number<int>(dimension.value);
@@ -257,7 +258,7 @@ LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
   if (words.size() != 4) {
     throw core::InputError(sizes.place, fmt::format("expected 4 sizes, got {}", words.size()));
   }
-  const std::size_t axis = component_axis(header, words);
+  const std::size_t axis = find_component_axis(header, words);
   volume.size =
       parse_sizes(fmt::format("{}", fmt::join(words_of_axes(sizes.value, axis), " ")), sizes.place);
   const auto count = parse_number<std::uint32_t>(words[axis]);
@@ -274,7 +275,7 @@ LeftOut parse_axes(const Header& header, Volume& volume, ValueLayout& layout) {
   return axis;
 }
 
-void parse_spacing(const Header& header, const LeftOut& left_out, Volume& volume) {
+void parse_spacing(const Header& header, const ComponentAxis& component_axis, Volume& volume) {
   const Field* spacings = header.find("spacings");
   const Field* directions = header.find("space directions");
   if (spacings != nullptr && directions != nullptr) {
@@ -282,15 +283,15 @@ void parse_spacing(const Header& header, const LeftOut& left_out, Volume& volume
                            "'space directions' and 'spacings' are mutually exclusive");
   }
   if (directions != nullptr) {
-    const std::array<Vector, 3> axes = parse_directions(*directions, left_out);
+    const std::array<Vector, 3> axes = parse_directions(*directions, component_axis);
     volume.spacing = lengths_of(axes, volume.size, directions->place);
     volume.facts.orientation = orientation_of(axes, header.find("space"));
   } else if (spacings != nullptr) {
-    const auto words = words_of_axes(spacings->value, left_out);
+    const auto words = words_of_axes(spacings->value, component_axis);
     volume.spacing =
         parse_spacings(fmt::format("{}", fmt::join(words, " ")), volume.size, spacings->place);
   } else {
-    volume.spacing = spacing_of_ends(header, volume.size, left_out).value_or(Vector{1, 1, 1});
+    volume.spacing = spacing_of_ends(header, volume.size, component_axis).value_or(Vector{1, 1, 1});
   }
 }
 

@@ -123,7 +123,7 @@ void locate_files(const Header& header, const Field& data, const std::filesystem
   }
   if (named.empty()) throw core::InputError(data.place, "the pattern yields no file names");
   for (const Field& each : named) {
-    const auto found = data_file_beside(file, each.value, each.place);
+    const auto found = find_data_file(file, each.value, each.place);
     if (source.file.empty()) {
       source.file = found;
     } else {

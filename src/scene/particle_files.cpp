@@ -75,8 +75,8 @@ std::span<const char> without_byte_order_mark(const std::vector<char>& content,
 
 // Returns the beginning of the content, which is sufficient to recognize a format.
 std::string_view start_of(std::span<const char> content) {
-  constexpr std::size_t enough = 4096;
-  return {content.data(), std::min(content.size(), enough)};
+  constexpr std::size_t start_bytes = 4096;
+  return {content.data(), std::min(content.size(), start_bytes)};
 }
 
 // Converts lines that end with a single CR, as written by old Macintosh programs.

@@ -80,7 +80,7 @@ std::string ending_of(const std::filesystem::path& file) {
 
 // Returns whether files of the two formats can begin in the same way. This is true of PQR and PDB,
 // because both have the same records.
-bool begin_alike(const ParticleFormat& named, const ParticleFormat& begun) {
+bool have_same_beginning(const ParticleFormat& named, const ParticleFormat& begun) {
   return named.name == "PQR" && begun.name == "PDB";
 }
 
@@ -101,7 +101,8 @@ const ParticleFormat& particle_format(const std::string& file, std::string_view 
                                                        quotable(ending), particle_advice(ending)));
   }
   if (named == formats.end()) return *begun;
-  if (begun == formats.end() || begun == named || begin_alike(*named, *begun)) return *named;
+  if (begun == formats.end() || begun == named || have_same_beginning(*named, *begun))
+    return *named;
   // Some endings, such as .lammps and .data, are used for both LAMMPS formats.
   if (begun->name == "LAMMPS dump" && named->name == "LAMMPS data") return *begun;
   throw core::InputError(

@@ -75,7 +75,7 @@ class Maker {
     const double hue = colours_.uniform();
     append_colour(set_, hue_colour(hue),
                   (centre[axis_] - box_.lo[axis_]) / (box_.hi[axis_] - box_.lo[axis_]));
-    progress_.reach(set_.count());
+    progress_.advance_to(set_.count());
   }
 
   [[nodiscard]] core::Random& random() { return random_; }
@@ -93,14 +93,14 @@ class Maker {
   Box box_;
 };
 
-constexpr double paper_filling = 0.1;
+constexpr double filling_of_paper = 0.1;
 const Box cube{glm::dvec3(0), glm::dvec3(10)};
 constexpr double cube_volume = 1000;
 
 void uniform(Maker& maker) {
   maker.colour_along(2, cube);
   const double radius =
-      filling_radius(paper_filling, cube_volume, static_cast<double>(maker.count()));
+      filling_radius(filling_of_paper, cube_volume, static_cast<double>(maker.count()));
   while (maker.left() > 0) maker.add(place_in_box(maker.random(), cube), radius);
 }
 
@@ -242,7 +242,7 @@ void coincident(Maker& maker) {
   static constexpr std::uint64_t copies = 8;
   const std::uint64_t places = (maker.count() + copies - 1) / copies;
   maker.colour_along(2, cube);
-  const double radius = filling_radius(paper_filling, cube_volume, static_cast<double>(places));
+  const double radius = filling_radius(filling_of_paper, cube_volume, static_cast<double>(places));
   // Each copy restarts the same random sequence, so that particles at the same position are far
   // apart in the set.
   for (std::uint64_t copy = 0; copy < copies; ++copy) {
@@ -256,15 +256,16 @@ void coincident(Maker& maker) {
 // Creates a wall across the front of the cube, as seen from +z, and hidden spheres behind it. The
 // wall is a lattice of squares with a sphere in the middle of each square. It has no gaps: in its
 // plane, each sphere extends beyond the corners of its square, so no ray passes through. The wall
-// consists of about `seen` spheres in complete rows. The very last sphere touches the back of the
-// cube. Sets with equal walls therefore have equal bounding boxes, and the same cameras apply to
-// them.
-void walled(Maker& maker, std::uint64_t seen) {
+// consists of about `wall_count` spheres in complete rows. The very last sphere touches the back of
+// the cube. Sets with equal walls therefore have equal bounding boxes, and the same cameras apply
+// to them.
+void add_wall_and_hidden(Maker& maker, std::uint64_t wall_count) {
   static constexpr double reach =
       0.75;  // radius / edge of a square; the corners of a square are √½ edges from its middle
   maker.colour_along(2, cube);
-  const auto rows =
-      seen > 1 ? static_cast<std::uint64_t>(std::sqrt(static_cast<double>(seen - 1))) : 0;
+  const auto rows = wall_count > 1
+                        ? static_cast<std::uint64_t>(std::sqrt(static_cast<double>(wall_count - 1)))
+                        : 0;
   const double spacing = cube.hi.x / static_cast<double>(std::max<std::uint64_t>(rows, 1));
   const double radius = reach * spacing;
   for (std::uint64_t j = 0; j < rows; ++j) {
@@ -275,7 +276,7 @@ void walled(Maker& maker, std::uint64_t seen) {
     }
   }
   const auto rest = static_cast<double>(maker.left());
-  const double small = rest > 1 ? filling_radius(paper_filling, cube_volume, rest) : radius;
+  const double small = rest > 1 ? filling_radius(filling_of_paper, cube_volume, rest) : radius;
   // The hidden spheres are behind the plane of the wall and within its sides. If there are only a
   // few, they would be too large to fit there, so their radius is limited.
   const double hidden_radius = std::min(small, 0.05 * cube.hi.x);
@@ -287,11 +288,11 @@ void walled(Maker& maker, std::uint64_t seen) {
 }
 
 void wall(Maker& maker) {
-  walled(maker, maker.count());
+  add_wall_and_hidden(maker, maker.count());
 }
 
 void hidden(Maker& maker) {
-  walled(maker, maker.count() / 10);
+  add_wall_and_hidden(maker, maker.count() / 10);
 }
 
 struct Generator {

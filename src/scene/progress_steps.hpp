@@ -6,8 +6,8 @@
 
 namespace triptych::scene {
 
-// Calls a Progress function at most once for each per cent of the work, no matter how often reach()
-// is called.
+// Calls a Progress function at most once for each per cent of the work, no matter how often
+// advance_to() is called.
 class ProgressSteps {
  public:
   // `progress` may be empty. If the work is part of a larger task, its progress is mapped to
@@ -15,7 +15,7 @@ class ProgressSteps {
   ProgressSteps(const Progress& progress, std::uint64_t total, double begin = 0, double end = 1)
       : progress_(progress), total_(std::max<std::uint64_t>(total, 1)), begin_(begin), end_(end) {}
 
-  void reach(std::uint64_t done) {
+  void advance_to(std::uint64_t done) {
     if (done < next_) return;
     next_ = done + std::max<std::uint64_t>(total_ / 100, 1);
     if (!progress_) return;

@@ -57,7 +57,7 @@ std::vector<std::string_view> parts_of(std::string_view data) {
 }
 
 // Parses an option that follows the type.
-void take_option(RawSpec& spec, std::string_view part, std::string_view data) {
+void parse_option(RawSpec& spec, std::string_view part, std::string_view data) {
   constexpr std::string_view skip = "skip=";
   constexpr std::string_view components = "components=";
   if (part == "big" || part == "little") {
@@ -104,7 +104,7 @@ std::optional<RawSpec> parse_raw_spec(std::string_view data) {
                             parts[at + 1]));
   }
   spec.layout.type = type->second;
-  for (std::size_t i = at + 2; i < parts.size(); ++i) take_option(spec, parts[i], data);
+  for (std::size_t i = at + 2; i < parts.size(); ++i) parse_option(spec, parts[i], data);
   return spec;
 }
 

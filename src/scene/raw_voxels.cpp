@@ -21,7 +21,7 @@
 namespace triptych::scene {
 namespace {
 
-std::string stated(const Volume& volume, const RawVoxels& source) {
+std::string voxels_text(const Volume& volume, const RawVoxels& source) {
   const std::string components =
       source.layout.components == 1 ? "" : fmt::format("{} x ", source.layout.components);
   return fmt::format("{} x {} x {} voxels of {}{}", volume.size[0], volume.size[1], volume.size[2],
@@ -55,11 +55,11 @@ std::string_view stream_name(const RawVoxels& source) {
 }
 
 [[noreturn]] void refuse_size(const Volume& volume, const RawVoxels& source, std::uint64_t needed,
-                              const std::filesystem::path& file, const std::string& held) {
+                              const std::filesystem::path& file, const std::string& found) {
   throw core::InputError(
       source.sizes_place,
-      fmt::format("{} need {} bytes of data, but {}{} holds {}", stated(volume, source), needed,
-                  stream_name(source), file.filename().string(), held));
+      fmt::format("{} need {} bytes of data, but {}{} holds {}", voxels_text(volume, source),
+                  needed, stream_name(source), file.filename().string(), found));
 }
 
 bool is_compressed(const RawVoxels& source) {
@@ -111,7 +111,7 @@ std::uint64_t bytes_before(const RawVoxels& source, const std::filesystem::path&
 void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t needed,
                  std::uint64_t share, const std::filesystem::path& file) {
   const std::uint64_t size = size_of_file(file);
-  const std::uint64_t there =
+  const std::uint64_t present_bytes =
       source.packing == Packing::none ? size - std::min(source.start, size) : size;
   const auto skip = static_cast<std::uint64_t>(std::max<std::int64_t>(source.skip, 0));
   if (is_compressed(source)) {
@@ -119,12 +119,12 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
     // no useful limit.
     constexpr std::uint64_t largest_ratio = 1032;
     const bool deflated = source.encoding != RawEncoding::bzip2 && source.packing != Packing::bzip2;
-    if (deflated && (share + skip) / largest_ratio > there) {
+    if (deflated && (share + skip) / largest_ratio > present_bytes) {
       throw core::InputError(
           source.sizes_place,
           fmt::format(
               "{} need {} bytes of data, more than the {} compressed bytes of {} can contain",
-              stated(volume, source), needed, there, file.filename().string()));
+              voxels_text(volume, source), needed, present_bytes, file.filename().string()));
     }
     if (needed > most_unpacked_bytes || skip > most_unpacked_bytes - needed) {
       refuse_unpacked(file.string(), most_unpacked_bytes);
@@ -137,9 +137,9 @@ void check_claim(const Volume& volume, const RawVoxels& source, std::uint64_t ne
   const std::uint64_t least = text  ? share / bytes_of(source.layout.type) * 2 - 1
                               : hex ? share * 2
                                     : share;
-  if (least > there || skip > there - least) {
-    const std::uint64_t held = there - std::min(skip, there);
-    refuse_size(volume, source, needed, file, fmt::format("{} (truncated)", held));
+  if (least > present_bytes || skip > present_bytes - least) {
+    const std::uint64_t found = present_bytes - std::min(skip, present_bytes);
+    refuse_size(volume, source, needed, file, fmt::format("{} (truncated)", found));
   }
 }
 
@@ -156,7 +156,7 @@ class Files {
           source.sizes_place,
           fmt::format("{} need {} bytes of data, which cannot be divided equally "
                       "among {} files",
-                      stated(volume, source), needed, files_.size()));
+                      voxels_text(volume, source), needed, files_.size()));
     }
     for (const auto& file : files_) check_claim(volume, source, needed, share_, file);
     open();
@@ -201,9 +201,9 @@ class Files {
   }
 
   [[noreturn]] void refuse_short() const {
-    const std::uint64_t held = share_ - left_;
+    const std::uint64_t found = share_ - left_;
     refuse_size(volume_, source_, files_.size() == 1 ? needed_ : share_, files_[index_],
-                fmt::format("{}{}", held, stream_name(source_).empty() ? " (truncated)" : ""));
+                fmt::format("{}{}", found, stream_name(source_).empty() ? " (truncated)" : ""));
   }
 
   const Volume& volume_;
@@ -219,11 +219,12 @@ class Files {
 // Reads a single uncompressed file whose bytes are exactly the voxels, in one read.
 void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
   const std::uint64_t size = size_of_file(source.file);
-  const std::uint64_t there = size - std::min(source.start, size);
+  const std::uint64_t present_bytes = size - std::min(source.start, size);
   const bool from_end = source.skip == RawVoxels::at_end;
-  const std::uint64_t skipped = from_end ? there - std::min(needed, there)
-                                         : std::min(static_cast<std::uint64_t>(source.skip), there);
-  const std::uint64_t available = there - skipped;
+  const std::uint64_t skipped =
+      from_end ? present_bytes - std::min(needed, present_bytes)
+               : std::min(static_cast<std::uint64_t>(source.skip), present_bytes);
+  const std::uint64_t available = present_bytes - skipped;
   const bool enough = source.more_may_follow ? available >= needed : available == needed;
   if (!enough) {
     refuse_size(volume, source, needed, source.file,
@@ -241,7 +242,7 @@ void read_plain(Volume& volume, const RawVoxels& source, std::uint64_t needed) {
 // Reads voxels that need no conversion (see is_plain()). Address space is reserved for all voxels
 // at once, so that the vector never has to copy them. The operating system provides memory only as
 // voxels are read, so a header that claims too many voxels does not cost memory.
-void take_plain(VoxelBytes& voxels, std::uint64_t needed, Files& files) {
+void read_unconverted(VoxelBytes& voxels, std::uint64_t needed, Files& files) {
   constexpr std::uint64_t piece = std::uint64_t{16} << 20;
   voxels.reserve(needed);
   while (voxels.size() < needed) {
@@ -306,7 +307,7 @@ void read_voxels(Volume& volume, const RawVoxels& given) {
   if (!needed) {
     throw core::InputError(
         source.sizes_place,
-        stated(volume, source) + " need more bytes than a 64-bit integer can represent");
+        voxels_text(volume, source) + " need more bytes than a 64-bit integer can represent");
   }
   check_component(source.component, layout.components, source.file);
   const bool plain = is_plain(layout) && !source.component.magnitude;
@@ -318,9 +319,9 @@ void read_voxels(Volume& volume, const RawVoxels& given) {
   } else {
     Files files(volume, source, *needed);
     if (plain) {
-      take_plain(volume.voxels, *needed, files);
+      read_unconverted(volume.voxels, *needed, files);
     } else {
-      static_cast<void>(take_values(volume, layout, source.component,
+      static_cast<void>(read_values(volume, layout, source.component,
                                     [&](std::span<std::byte> out) { return files.read(out); }));
     }
     files.check_surplus();
@@ -344,11 +345,11 @@ void read_stream(Volume& volume, const ValueLayout& layout, const Component& com
     throw core::InputError(source.sizes_place,
                            fmt::format("{} need more than {} bytes, the size limit for this "
                                        "format; convert larger volumes to NRRD",
-                                       stated(volume, source), most_unpacked_bytes));
+                                       voxels_text(volume, source), most_unpacked_bytes));
   }
-  const std::uint64_t held = take_values(volume, layout, component, values);
-  if (held < *needed) {
-    refuse_size(volume, source, *needed, file, fmt::format("{} (truncated)", held));
+  const std::uint64_t found = read_values(volume, layout, component, values);
+  if (found < *needed) {
+    refuse_size(volume, source, *needed, file, fmt::format("{} (truncated)", found));
   }
   note_values(volume, source);
   set_finite_range(volume);
@@ -407,8 +408,8 @@ std::array<double, 3> parse_spacings(std::string_view text, const std::array<int
   return spacing;
 }
 
-std::filesystem::path data_file_beside(const std::filesystem::path& header, std::string_view name,
-                                       const core::FilePlace& place) {
+std::filesystem::path find_data_file(const std::filesystem::path& header, std::string_view name,
+                                     const core::FilePlace& place) {
   const std::filesystem::path file = header.parent_path() / std::filesystem::path(name);
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(file, unreadable)) {

@@ -58,8 +58,8 @@ void read_stream(Volume& volume, const ValueLayout& layout, const Component& com
 
 // Returns the path of a file that a header names relative to the header's folder. Throws InputError
 // if the file does not exist.
-[[nodiscard]] std::filesystem::path data_file_beside(const std::filesystem::path& header,
-                                                     std::string_view name,
-                                                     const core::FilePlace& place);
+[[nodiscard]] std::filesystem::path find_data_file(const std::filesystem::path& header,
+                                                   std::string_view name,
+                                                   const core::FilePlace& place);
 
 }  // namespace triptych::scene

@@ -136,7 +136,7 @@ Entries from_text(std::string_view text, const std::string& file) {
 
 // Returns whether the bytes look like the beginning of a text file. This is the case if there are
 // several lines, and each of them is a comment or consists of characters that occur in numbers.
-bool starts_a_text(std::string_view bytes) {
+bool looks_like_text(std::string_view bytes) {
   const auto lines = split_lines(bytes);
   return lines.size() > 1 && std::ranges::all_of(lines, [](std::string_view line) {
            if (line.find_first_not_of("0123456789+-.eE \t") == std::string_view::npos) return true;
@@ -151,7 +151,7 @@ Entries from_file(const std::filesystem::path& file) {
   // A complete text file with 256 entries is longer than 1024 bytes, because the shortest entry
   // (four digits, three blanks and a line end) has 8 bytes. But a truncated text file can have any
   // length.
-  const bool is_table = bytes.size() == 4 * std::tuple_size_v<Entries> && !starts_a_text(text);
+  const bool is_table = bytes.size() == 4 * std::tuple_size_v<Entries> && !looks_like_text(text);
   return is_table ? from_bytes(bytes) : from_text(text, file.string());
 }
 

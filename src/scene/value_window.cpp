@@ -107,19 +107,19 @@ template <typename Scalar>
 void set_window_of(Volume& volume, const std::optional<Window>& window, Mapping mapping) {
   Counted<Scalar> counted(volume, mapping);
   if (counted.empty()) refuse_values(volume, mapping);
-  const Range there = counted.range();
+  const Range available = counted.range();
   const Range range = window ? range_of(*window, counted, volume.name)
-                             : Range{std::max(volume.range_lo, there.lo), volume.range_hi};
+                             : Range{std::max(volume.range_lo, available.lo), volume.range_hi};
   if (mapping == Mapping::logarithmic && !(range.lo > 0)) {
     throw core::InputError(
         fmt::format("{}: mapping=log requires a window with a positive lower end, but it begins "
                     "at {} (the range of the positive values is {})",
-                    volume.name, range.lo, text_of(there)));
+                    volume.name, range.lo, text_of(available)));
   }
   volume.range_lo = range.lo;
   volume.range_hi = range.hi;
   volume.mapping = mapping;
-  volume.clipped = there.lo < range.lo || there.hi > range.hi;
+  volume.clipped = available.lo < range.lo || available.hi > range.hi;
 }
 
 }  // namespace

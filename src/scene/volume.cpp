@@ -63,9 +63,9 @@ class Normaliser {
 template <typename From, typename To, typename Convert>
 VoxelBytes convert(VoxelBytes&& voxels, Convert&& each) {
   const std::size_t n = voxels.size() / sizeof(From);
-  VoxelBytes fresh;
-  if constexpr (sizeof(From) != sizeof(To)) fresh.resize(n * sizeof(To));
-  VoxelBytes& out = sizeof(From) == sizeof(To) ? voxels : fresh;
+  VoxelBytes converted;
+  if constexpr (sizeof(From) != sizeof(To)) converted.resize(n * sizeof(To));
+  VoxelBytes& out = sizeof(From) == sizeof(To) ? voxels : converted;
   for (std::size_t i = 0; i < n; ++i) {
     const To result = each(load_scalar<From>(voxels.data(), i));
     std::memcpy(out.data() + i * sizeof(To), &result, sizeof(To));

@@ -47,7 +47,7 @@ bool begins_as_vtk(std::string_view start) {
   return start.starts_with("# vtk DataFile Version");
 }
 
-bool never_alone(std::string_view /*start*/) {
+bool never_matches(std::string_view /*start*/) {
   return false;
 }
 
@@ -57,7 +57,7 @@ constexpr std::array<VolumeFormat, 6> formats_of_volumes{
      {"MetaImage", ".mha .mhd", begins_as_metaimage, read_metaimage},
      {"VTK image data", ".vti", begins_as_vti, read_vti},
      {"VTK legacy", ".vtk", begins_as_vtk, read_vtk},
-     {"DAT", ".dat", never_alone, read_dat}}};
+     {"DAT", ".dat", never_matches, read_dat}}};
 
 std::string ending_of_volume(const std::filesystem::path& file) {
   const std::string last = lower_case(file.extension().string());
@@ -72,9 +72,9 @@ std::span<const VolumeFormat> volume_formats() {
 }
 
 const VolumeFormat& volume_format(const std::filesystem::path& file) {
-  constexpr std::size_t enough = 4096;
+  constexpr std::size_t start_bytes = 4096;
   const std::string ending = ending_of_volume(file);
-  const std::string start = content_start(file, enough);
+  const std::string start = content_start(file, start_bytes);
   const auto& formats = formats_of_volumes;
   const auto named = std::ranges::find_if(
       formats, [&](const VolumeFormat& format) { return has_ending(format.endings, ending); });

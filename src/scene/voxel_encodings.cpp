@@ -32,7 +32,7 @@ class Letters {
   void take() { ++at_; }
 
   // Returns the next character that is not white space, without consuming it.
-  std::optional<char> peek_ink() {
+  std::optional<char> peek_non_blank() {
     for (auto c = peek(); c; c = peek()) {
       if (*c != ' ' && *c != '\n' && *c != '\r' && *c != '\t') return c;
       take();
@@ -89,7 +89,7 @@ class HexReader {
 
  private:
   std::optional<unsigned> digit() {
-    const auto c = letters_.peek_ink();
+    const auto c = letters_.peek_non_blank();
     if (!c) return std::nullopt;
     const auto value = hex_digit(*c);
     if (!value) reject_letter(file_, "hexadecimal digits", *c);
@@ -122,7 +122,7 @@ class Base64Reader {
     unsigned letters = 0;
     unsigned padding = 0;
     for (; letters < 4; ++letters) {
-      const auto c = letters_.peek_ink();
+      const auto c = letters_.peek_non_blank();
       const auto digit = c ? base64_digit(*c) : std::nullopt;
       const bool pads = c == '=' && letters >= 2;
       if (!pads && (!digit || padding > 0)) break;

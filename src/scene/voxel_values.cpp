@@ -108,8 +108,8 @@ std::uint64_t for_each_value(const ValueLayout& layout, std::uint64_t needed,
 }
 
 template <typename From, typename To>
-std::uint64_t pick(Volume& volume, const ValueLayout& layout, std::uint64_t wanted,
-                   std::uint64_t needed, const ByteSource& source) {
+std::uint64_t read_component(Volume& volume, const ValueLayout& layout, std::uint64_t wanted,
+                             std::uint64_t needed, const ByteSource& source) {
   Voxels<To> voxels(volume.voxels, volume.voxel_count());
   return for_each_value<From>(layout, needed, source, [&](From value, std::uint64_t component) {
     if (component != wanted) return;
@@ -260,7 +260,7 @@ void check_component(const Component& component, std::uint64_t components,
                   components, components == 1 ? "" : "s", component.index));
 }
 
-std::uint64_t take_values(Volume& volume, const ValueLayout& layout, const Component& component,
+std::uint64_t read_values(Volume& volume, const ValueLayout& layout, const Component& component,
                           const ByteSource& source) {
   const std::uint64_t needed = value_bytes(volume, layout).value_or(0);
   const bool floats = layout.is_scaled() || component.magnitude;
@@ -269,19 +269,19 @@ std::uint64_t take_values(Volume& volume, const ValueLayout& layout, const Compo
     constexpr bool is_double = std::is_same_v<From, double>;
     using Float = std::conditional_t<is_double, double, float>;
     constexpr ScalarType float_type = is_double ? ScalarType::f64 : ScalarType::f32;
-    std::uint64_t taken = 0;
+    std::uint64_t count = 0;
     if (component.magnitude) {
-      taken = lengths<From, Float>(volume, layout, needed, source);
+      count = lengths<From, Float>(volume, layout, needed, source);
     } else if (floats) {
-      taken = pick<From, Float>(volume, layout, component.index, needed, source);
+      count = read_component<From, Float>(volume, layout, component.index, needed, source);
     } else {
-      taken = pick<From, From>(volume, layout, component.index, needed, source);
+      count = read_component<From, From>(volume, layout, component.index, needed, source);
     }
     volume.type = floats ? float_type : same_type(layout.type).value_or(ScalarType::f64);
     if constexpr (std::is_integral_v<From> && sizeof(From) > 2) {
-      if (!floats && taken == needed) narrow<From>(volume);
+      if (!floats && count == needed) narrow<From>(volume);
     }
-    return taken;
+    return count;
   });
 }
 

@@ -42,7 +42,7 @@ struct ValueLayout {
 // Reads all values of a volume whose size is set, and sets its voxels and its type. Memory is used
 // as values are read. Returns the number of bytes read, which is less than value_bytes() only if
 // the source ended too early.
-[[nodiscard]] std::uint64_t take_values(Volume& volume, const ValueLayout& layout,
+[[nodiscard]] std::uint64_t read_values(Volume& volume, const ValueLayout& layout,
                                         const Component& component, const ByteSource& source);
 
 // Returns the number of bytes of the volume's values in the file, or nullopt if the number exceeds

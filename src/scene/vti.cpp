@@ -26,7 +26,7 @@ namespace {
 
 struct VtiArray {
   XmlTag tag;
-  bool of_cells = false;
+  bool is_cell_data = false;
 };
 
 // The tags that were found in a file.
@@ -105,10 +105,10 @@ VtiFile read_tags(const std::filesystem::path& file) {
 // array, or else the first cell array.
 const VtiArray& chosen_array(const VtiFile& vti) {
   for (const bool by_name : {true, false}) {
-    for (const bool of_cells : {false, true}) {
-      const std::string& active = vti.active.at(of_cells ? 1 : 0);
+    for (const bool is_cell_data : {false, true}) {
+      const std::string& active = vti.active.at(is_cell_data ? 1 : 0);
       for (const VtiArray& array : vti.arrays) {
-        if (array.of_cells != of_cells) continue;
+        if (array.is_cell_data != is_cell_data) continue;
         if (!by_name || (!active.empty() && array.tag.attribute("Name") == active)) return array;
       }
     }
@@ -133,7 +133,7 @@ std::vector<T> numbers_of(const std::string& text, std::size_t count, const VtiF
   return numbers;
 }
 
-void take_extent(const VtiFile& vti, bool of_cells, Volume& volume) {
+void set_extent(const VtiFile& vti, bool is_cell_data, Volume& volume) {
   const auto extent = numbers_of<int>(vti.image.attribute("WholeExtent"), 6, vti, "WholeExtent");
   if (!vti.pieces.empty()) {
     const std::string piece = vti.pieces.front().attribute("Extent");
@@ -145,7 +145,7 @@ void take_extent(const VtiFile& vti, bool of_cells, Volume& volume) {
       numbers_of<double>(vti.image.attribute("Spacing", "1 1 1"), 3, vti, "Spacing");
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::int64_t size =
-        std::int64_t{extent[2 * axis + 1]} - extent[2 * axis] + (of_cells ? 0 : 1);
+        std::int64_t{extent[2 * axis + 1]} - extent[2 * axis] + (is_cell_data ? 0 : 1);
     if (size < 1 || size > std::numeric_limits<int>::max()) {
       vti.reject(
           fmt::format("WholeExtent has {} values along axis {}; expected at least 1", size, axis));
@@ -330,7 +330,7 @@ Volume read_vti(const std::filesystem::path& file, const Component& component) {
   const VtiFile vti = read_tags(file);
   const VtiArray& array = chosen_array(vti);
   Volume volume;
-  take_extent(vti, array.of_cells, volume);
+  set_extent(vti, array.is_cell_data, volume);
   ValueLayout layout;
   layout.type = vti_type(vti, array.tag);
   const std::string components = array.tag.attribute("NumberOfComponents", "1");

@@ -80,9 +80,9 @@ StoredType vtk_type(const VtkLines& lines, std::string_view name) {
        {"vtktypeint64", StoredType::i64},
        {"float", StoredType::f32},
        {"double", StoredType::f64}}};
-  const std::string spelled = lower_case(name);
+  const std::string lower = lower_case(name);
   for (const auto& [spelling, type] : types) {
-    if (spelled == spelling) return type;
+    if (lower == spelling) return type;
   }
   lines.reject(
       fmt::format("type '{}' is not supported; expected unsigned_char, char, "
@@ -104,11 +104,11 @@ struct VtkHeader {
   bool binary = false;
   std::string sizes;
   std::string spacing = "1 1 1";
-  bool of_cells = false;
+  bool is_cell_data = false;
 };
 
 // Reads the lines up to POINT_DATA or CELL_DATA, and returns the number of values stated there.
-std::uint64_t take_geometry(VtkLines& lines, VtkHeader& header) {
+std::uint64_t read_geometry(VtkLines& lines, VtkHeader& header) {
   for (;;) {
     const std::string_view line = lines.next("POINT_DATA");
     const auto words = split_words(line);
@@ -119,7 +119,7 @@ std::uint64_t take_geometry(VtkLines& lines, VtkHeader& header) {
     } else if (key == "spacing" || key == "aspect_ratio") {
       header.spacing = value;
     } else if (key == "point_data" || key == "cell_data") {
-      header.of_cells = key == "cell_data";
+      header.is_cell_data = key == "cell_data";
       return count_of(lines, value);
     } else if (key == "field") {
       lines.reject(
@@ -133,7 +133,7 @@ std::uint64_t take_geometry(VtkLines& lines, VtkHeader& header) {
 }
 
 // Reads the lines that declare an array. The array's values follow these lines.
-ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
+ValueLayout read_array(VtkLines& lines, const VtkHeader& header) {
   ValueLayout layout;
   layout.big_endian = true;
   std::string_view line = lines.next("SCALARS");
@@ -174,7 +174,7 @@ ValueLayout take_array(VtkLines& lines, const VtkHeader& header) {
 }
 
 // Reads the lines before the geometry of the image.
-VtkHeader take_heading(VtkLines& lines) {
+VtkHeader read_header(VtkLines& lines) {
   if (!lines.any().starts_with("# vtk DataFile Version")) {
     lines.reject("this is not a VTK file; expected '# vtk DataFile Version'");
   }
@@ -200,12 +200,12 @@ VtkHeader take_heading(VtkLines& lines) {
 
 Volume read_vtk(const std::filesystem::path& file, const Component& component) {
   VtkLines lines(file);
-  VtkHeader header = take_heading(lines);
-  const std::uint64_t count = take_geometry(lines, header);
+  VtkHeader header = read_header(lines);
+  const std::uint64_t count = read_geometry(lines, header);
   if (header.sizes.empty()) lines.reject("expected DIMENSIONS before the data");
   Volume volume;
   volume.size = parse_sizes(header.sizes, lines.place());
-  for (int& size : volume.size) size -= header.of_cells && size > 1 ? 1 : 0;
+  for (int& size : volume.size) size -= header.is_cell_data && size > 1 ? 1 : 0;
   volume.spacing = parse_spacings(header.spacing, volume.size, lines.place());
   if (static_cast<std::uint64_t>(volume.size[0]) * static_cast<std::uint64_t>(volume.size[1]) >
           count ||
@@ -215,7 +215,7 @@ Volume read_vtk(const std::filesystem::path& file, const Component& component) {
         volume.size[0], volume.size[1], volume.size[2]));
   }
   RawVoxels source;
-  source.layout = take_array(lines, header);
+  source.layout = read_array(lines, header);
   source.file = file;
   source.packing = packing_of_file(file);
   source.start = lines.at();

@@ -20,9 +20,9 @@ struct XmlTag {
   std::uint64_t end = 0;  // position of the byte after '>'
 
   [[nodiscard]] std::string attribute(const std::string& key,
-                                      const std::string& otherwise = {}) const {
+                                      const std::string& default_value = {}) const {
     const auto found = attributes.find(key);
-    return found == attributes.end() ? otherwise : found->second;
+    return found == attributes.end() ? default_value : found->second;
   }
 };
 

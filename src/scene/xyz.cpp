@@ -25,7 +25,7 @@ struct XyzColumns {
   std::optional<std::size_t> count;
 };
 
-std::string_view take_part(std::string_view& list) {
+std::string_view next_part(std::string_view& list) {
   const std::size_t end = std::min(list.find(':'), list.size());
   const std::string_view part = list.substr(0, end);
   list.remove_prefix(std::min(end + 1, list.size()));
@@ -40,9 +40,9 @@ XyzColumns stated_columns(std::string_view list, const LineReader& reader) {
   std::optional<std::size_t> place;
   std::size_t count = 0;
   do {
-    const std::string name = lower_case(take_part(list));
-    const std::string type = lower_case(take_part(list));
-    const std::string_view word = take_part(list);
+    const std::string name = lower_case(next_part(list));
+    const std::string type = lower_case(next_part(list));
+    const std::string_view word = next_part(list);
     const auto columns = parse_number<std::size_t>(word);
     if (!columns || *columns == 0 || *columns > most_columns) {
       reader.reject(fmt::format("expected Properties=NAME:TYPE:COUNT:…, found the count '{}'",
@@ -163,9 +163,9 @@ void note_numbers(Atoms& atoms) {
     }
   }
   if (read_as.empty()) return;
-  constexpr std::size_t enough = 6;
-  const bool all = read_as.size() <= enough;
-  if (!all) read_as.resize(enough);
+  constexpr std::size_t most_listed = 6;
+  const bool all = read_as.size() <= most_listed;
+  if (!all) read_as.resize(most_listed);
   atoms.notes.push_back(
       fmt::format("the first column contains numbers, which are read as atomic numbers: {}{}; if "
                   "they are LAMMPS types instead, name the elements with dump_modify, or write a "
@@ -191,13 +191,13 @@ void name_words(Atoms& atoms, bool numbered) {
     }
   }
   for (std::uint32_t& kind : atoms.kinds) kind = renamed[kind];
-  atoms.take_names(std::move(named));
+  atoms.move_names_from(std::move(named));
   name_elements(atoms);
 }
 
 // Checks that a frame is followed by the end of the file or by the next frame's number of atoms. In
 // files of the data set QM9, three other lines follow: frequencies, SMILES and InChI.
-void check_what_follows(LineReader& reader) {
+void check_end_of_frame(LineReader& reader) {
   if (reader.at_end()) return;
   const std::string_view line = reader.require("a frame");
   if (parse_number<std::uint64_t>(trimmed(line))) return;
@@ -232,7 +232,7 @@ ParticleSet read_xyz(LineReader& reader, std::uint64_t frame, ColourKind colour)
     }
     const XyzColumns columns = columns_of(comment, reader);
     Atoms atoms;
-    atoms.places.reserve(reader.room(count, 8));
+    atoms.places.reserve(reader.reservation(count, 8));
     for (std::uint64_t i = 0; i < count; ++i) {
       const std::string_view line = reader.require(atoms_wanted);
       if (columns.count) {
@@ -243,7 +243,7 @@ ParticleSet read_xyz(LineReader& reader, std::uint64_t frame, ColourKind colour)
       add_xyz_atom(atoms, words, columns, reader);
     }
     if (atoms.places.empty()) reader.reject("expected atoms, found none");
-    check_what_follows(reader);
+    check_end_of_frame(reader);
     name_words(atoms, columns.numbered);
     return to_particles(std::move(atoms), colour, reader);
   }

@@ -104,8 +104,8 @@ XyzComment parse_xyz_comment(std::string_view comment) {
   XyzComment parsed = CommentParser(comment).parse();
   // A plain XYZ file may have any text in its comment, so only a comment with "Properties=" must be
   // valid.
-  const bool meant = lower_case(comment).find("properties=") != std::string::npos;
-  if (!parsed.error.empty() && !meant) return {};
+  const bool is_extended = lower_case(comment).find("properties=") != std::string::npos;
+  if (!parsed.error.empty() && !is_extended) return {};
   return parsed;
 }
 

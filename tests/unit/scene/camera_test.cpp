@@ -104,9 +104,9 @@ TEST(Camera, OrbitsTurnAboutTheirAxisEvenlyAndClose) {
   const double step = glm::length(camera_at("orbit_x:1/36", cube, 90).eye -
                                   camera_at("orbit_x:0/36", cube, 90).eye);
   for (int i = 1; i < 36; ++i) {
-    const dvec3 here = camera_at(spec("orbit_x", i, 36), cube, 90).eye;
+    const dvec3 eye = camera_at(spec("orbit_x", i, 36), cube, 90).eye;
     const dvec3 next = camera_at(spec("orbit_x", (i + 1) % 36, 36), cube, 90).eye;
-    EXPECT_NEAR(glm::length(next - here), step, 1e-14) << i;
+    EXPECT_NEAR(glm::length(next - eye), step, 1e-14) << i;
   }
 }
 
@@ -115,9 +115,9 @@ TEST(Camera, OrbitsTurnAboutTheirAxisEvenlyAndClose) {
 TEST(Camera, OrbitsNeverFlip) {
   for (const std::string path : {"orbit_x", "orbit_y", "orbit_z"}) {
     for (int i = 0; i < 360; ++i) {
-      const Camera here = camera_at(spec(path, i, 360), slab, 60);
+      const Camera current = camera_at(spec(path, i, 360), slab, 60);
       const Camera next = camera_at(spec(path, (i + 1) % 360, 360), slab, 60);
-      EXPECT_LT(glm::length(next.up - here.up), 0.018) << path << i;
+      EXPECT_LT(glm::length(next.up - current.up), 0.018) << path << i;
     }
   }
 }

@@ -22,13 +22,13 @@ TEST(FreeView, IsOnTheOrbitAtElevationZero) {
   for (const auto& [view, orbit] :
        {std::pair{"view:45/0/1", "orbit_y:1/8"}, std::pair{"view:270/0/1", "orbit_y:3/4"},
         std::pair{"view:-90/0/1", "orbit_-y:1/4"}}) {
-    const Camera here = camera_at(view, brick, 60);
-    const Camera there = camera_at(orbit, brick, 60);
-    EXPECT_EQ(here.eye, there.eye) << view;
-    EXPECT_EQ(here.forward, there.forward) << view;
-    EXPECT_EQ(here.up, there.up) << view;
-    EXPECT_EQ(here.near, there.near) << view;
-    EXPECT_EQ(here.far, there.far) << view;
+    const Camera free_camera = camera_at(view, brick, 60);
+    const Camera orbit_camera = camera_at(orbit, brick, 60);
+    EXPECT_EQ(free_camera.eye, orbit_camera.eye) << view;
+    EXPECT_EQ(free_camera.forward, orbit_camera.forward) << view;
+    EXPECT_EQ(free_camera.up, orbit_camera.up) << view;
+    EXPECT_EQ(free_camera.near, orbit_camera.near) << view;
+    EXPECT_EQ(free_camera.far, orbit_camera.far) << view;
   }
 }
 

@@ -157,8 +157,8 @@ TEST(Generators, MandelbulbHasItsKnownProperties) {
   EXPECT_EQ(volume.value(0), 0);
   for (int i = 0; i < 48; ++i) {
     for (int j = 0; j < 48; ++j) {
-      const double here = volume.value(index_of(volume, i, j, 20));
-      EXPECT_NEAR(volume.value(index_of(volume, i, 47 - j, 20)), here, 1);
+      const double value = volume.value(index_of(volume, i, j, 20));
+      EXPECT_NEAR(volume.value(index_of(volume, i, 47 - j, 20)), value, 1);
     }
   }
 }

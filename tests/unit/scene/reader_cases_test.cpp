@@ -38,7 +38,7 @@ std::string kinds_of(const ParticleSet& set) {
   return list;
 }
 
-const std::string here = "   1.000   2.000   3.000";
+const std::string coordinates = "   1.000   2.000   3.000";
 
 TEST(PdbColumns, NumbersThatRunTogetherAreRejected) {
   for (const char* place :
@@ -47,7 +47,7 @@ TEST(PdbColumns, NumbersThatRunTogetherAreRejected) {
     expect_refused("a.pdb", pdb_atom(" C  ", "LIG", place), ":1:", "");
   }
   // The number begins in column 30, which must be blank.
-  std::string wide = pdb_atom(" C  ", "LIG", here);
+  std::string wide = pdb_atom(" C  ", "LIG", coordinates);
   wide.replace(29, 9, "12345.678");
   expect_refused("a.pdb", wide, ":1:", "x in columns 31 to 38: '2345.678' is not separated");
   // Numbers may touch if each of them fills its columns exactly.
@@ -57,7 +57,7 @@ TEST(PdbColumns, NumbersThatRunTogetherAreRejected) {
 }
 
 TEST(PdbRecords, RecordsThatBeginLikeAnAtomAreNotIgnored) {
-  const std::string atom = pdb_atom(" C  ", "LIG", here);
+  const std::string atom = pdb_atom(" C  ", "LIG", coordinates);
   const std::string rest = atom.substr(6);
   for (const char* begin :
        {"atom  ", "Atom  ", " ATOM ", "hetatm", "Hetatm", "ATOM\t ", "ATOM* "}) {
@@ -70,18 +70,18 @@ TEST(PdbRecords, RecordsThatBeginLikeAnAtomAreNotIgnored) {
 }
 
 TEST(PdbElements, ComeFromTheResidueIfNamesAreLeftAligned) {
-  const ParticleSet set =
-      load("a.pdb", pdb_atom("N   ", "ALA", here) + pdb_atom("CA  ", "ALA", here) +
-                        pdb_atom("HG2 ", "ARG", here) + pdb_atom("CD  ", "LIG", here) +
-                        pdb_atom("CA  ", " CA", here));
+  const ParticleSet set = load(
+      "a.pdb", pdb_atom("N   ", "ALA", coordinates) + pdb_atom("CA  ", "ALA", coordinates) +
+                   pdb_atom("HG2 ", "ARG", coordinates) + pdb_atom("CD  ", "LIG", coordinates) +
+                   pdb_atom("CA  ", " CA", coordinates));
   EXPECT_EQ(kinds_of(set), "H1 C2 N1 Ca1");
   EXPECT_THAT(set.facts.notes, ElementsAre(HasSubstr("not specify the element of 1 atom")));
 }
 
 TEST(PdbElements, ComeFromTheColumnsIfNamesAreRightAligned) {
   const ParticleSet set =
-      load("a.pdb", pdb_atom(" CA ", "ALA", here) + pdb_atom("CD  ", "LIG", here) +
-                        pdb_atom(" CD ", "LIG", here));
+      load("a.pdb", pdb_atom(" CA ", "ALA", coordinates) + pdb_atom("CD  ", "LIG", coordinates) +
+                        pdb_atom(" CD ", "LIG", coordinates));
   EXPECT_EQ(kinds_of(set), "C2 Cd1");
   EXPECT_THAT(set.facts.notes, IsEmpty());
 }
@@ -89,9 +89,10 @@ TEST(PdbElements, ComeFromTheColumnsIfNamesAreRightAligned) {
 // The last columns of a line, meant for the element, may contain part of a word. It must not be
 // read as an element.
 TEST(PdbElements, AreNotPartOfAWord) {
-  const ParticleSet set = load(
-      "a.pdb", pdb_atom(" C1 ", "POPC", here, "  1.00  0.00      MEMBRANE").replace(21, 1, "") +
-                   pdb_atom(" CA ", "ALA", here, "  1.00  0.00      PROA C  "));
+  const ParticleSet set =
+      load("a.pdb",
+           pdb_atom(" C1 ", "POPC", coordinates, "  1.00  0.00      MEMBRANE").replace(21, 1, "") +
+               pdb_atom(" CA ", "ALA", coordinates, "  1.00  0.00      PROA C  "));
   EXPECT_EQ(kinds_of(set), "C2");
 }
 
@@ -104,7 +105,7 @@ TEST(Elements, UnknownElementsAreReported) {
 
 TEST(ByteOrderMark, IsIgnoredOrReported) {
   const std::string mark = "\xEF\xBB\xBF";
-  const std::string atom = pdb_atom(" C  ", "LIG", here);
+  const std::string atom = pdb_atom(" C  ", "LIG", coordinates);
   EXPECT_EQ(load("a.pdb", mark + atom + atom).count(), 2U);
   EXPECT_EQ(load("a.xyz", mark + "1\n\nC 0 0 0\n").count(), 1U);
   EXPECT_EQ(
@@ -126,7 +127,7 @@ TEST(LineEnds, MayBeACarriageReturn) {
 }
 
 TEST(Compression, IsDetectedFromTheContent) {
-  const std::string atom = pdb_atom(" C  ", "LIG", here);
+  const std::string atom = pdb_atom(" C  ", "LIG", coordinates);
   EXPECT_EQ(load("a.pdb", gzipped(atom)).count(), 1U);
   expect_refused("a.pdb",
                  "\xFD"
@@ -213,7 +214,7 @@ TEST(Pqr, HasItsOwnRadii) {
 struct Row {
   const char* file;
   // The file with the same content, or nullptr if `file` only has to be readable.
-  const char* twin;
+  const char* expected_file;
 };
 
 TEST(ReaderCases, EveryRowOfTheTableIsRight) {
@@ -242,12 +243,12 @@ TEST(ReaderCases, EveryRowOfTheTableIsRight) {
                                    {"p13_lammps_dump.xyz", nullptr},
                                    {"p13d_escaped.xyz", "p13d_twin.xyz"},
                                    {"p13e_casp.pdb", nullptr}};
-  for (const auto& [file, twin] : particles) {
+  for (const auto& [file, expected_file] : particles) {
     SCOPED_TRACE(file);
     const ParticleSet set = load_particles(file, ColourKind::rgba8, {folder});
     EXPECT_GT(set.count(), 0U);
-    if (twin != nullptr) {
-      EXPECT_EQ(set.hash, load_particles(twin, ColourKind::rgba8, {folder}).hash);
+    if (expected_file != nullptr) {
+      EXPECT_EQ(set.hash, load_particles(expected_file, ColourKind::rgba8, {folder}).hash);
     }
   }
   for (const char* file : {"p03b_overflow4.pdb", "p13c_line.data"}) {
@@ -258,12 +259,12 @@ TEST(ReaderCases, EveryRowOfTheTableIsRight) {
   };
   EXPECT_EQ(kinds("p05b_charmm_ions.gro"), "Na1 Cl1 K1 Ca1");
   EXPECT_EQ(kinds("p05c_metals.gro"), "N1 Si1 Cl1 Fe1 Br1");
-  const Volume twin = load_volume("v_twin.nrrd", {folder});
+  const Volume expected = load_volume("v_twin.nrrd", {folder});
   for (const char* file :
        {"v01b_4d_one.nrrd", "v03_colon_keys.nrrd", "v08b_ascii.nrrd", "v08c_hex.nrrd",
         "v08d_bz2.nrrd", "v09_int.nrrd", "v09_uint32.nrrd", "v04_gz_minus1.nhdr", "v12_vmml.dat",
         "v13.mha", "v13.mhd", "v13.nrrd.gz", "v13.raw:6x5x4:u8:1x2x3"}) {
-    EXPECT_EQ(load_volume(file, {folder}).voxels, twin.voxels) << file;
+    EXPECT_EQ(load_volume(file, {folder}).voxels, expected.voxels) << file;
   }
   EXPECT_EQ(load_volume("v12c_iv3d.dat", {folder}).type, ScalarType::i16);
   // These files contain no volume: the NIfTI headers are empty, and the VTK files end before the

@@ -170,9 +170,9 @@ TEST(LosslessFormat, IsThatOfTheIntegersUnlessAMappingChangesThem) {
   const Volume volume = row_of<std::uint8_t>({10, 20, 200}, ScalarType::u8);
   const Volume wider = mapped(volume, "0..250");
   EXPECT_EQ(lossless_format(wider), VoxelFormat::u8);
-  const VoxelGrid as_they_are = natural(wider);
-  EXPECT_EQ(as_they_are.data, volume.voxels);
-  EXPECT_NEAR(as_they_are.normalised(1), 20.0 / 250, 1e-12);
+  const VoxelGrid unchanged = natural(wider);
+  EXPECT_EQ(unchanged.data, volume.voxels);
+  EXPECT_NEAR(unchanged.normalised(1), 20.0 / 250, 1e-12);
   EXPECT_EQ(lossless_format(mapped(volume, "10..199.5")), VoxelFormat::f32);
   EXPECT_EQ(lossless_format(mapped(volume, "full", Mapping::logarithmic)), VoxelFormat::f32);
 }
