@@ -48,8 +48,9 @@ AnalyticPixel finish(const Setting& setting, const std::array<Radiance, 3>& chan
   AnalyticPixel pixel;
   const double opacity = channels[0].opacity;
   for (std::size_t i = 0; i < 4; ++i) {
-    const double own = i < 3 ? channels[i].colour : opacity;
-    pixel.rgba[i] = own + (1.0 - opacity) * static_cast<double>(setting.options.background[i]);
+    const double foreground = i < 3 ? channels[i].colour : opacity;
+    pixel.rgba[i] =
+        foreground + (1.0 - opacity) * static_cast<double>(setting.options.background[i]);
   }
   pixel.model_error = model_error;
   return pixel;
@@ -192,7 +193,7 @@ std::vector<double> cuts_of_all_axes(const Setting& setting, const Chord& chord)
 // The point of the ray that is nearest to the box's centre, and its distance from the centre.
 struct Closest {
   double along;
-  double beside;
+  double distance;
 };
 Closest closest_to_centre(const Setting& setting, const Chord& chord) {
   const glm::dvec3 to_centre = 0.5 * setting.extent - setting.camera.eye;
@@ -202,7 +203,7 @@ Closest closest_to_centre(const Setting& setting, const Chord& chord) {
 
 // Returns the light of a medium with a single colour. It depends only on the optical depth, which
 // is tau times length.
-std::array<Radiance, 3> of_one_colour(const Setting& setting, double tau, double length) {
+std::array<Radiance, 3> single_colour_radiance(const Setting& setting, double tau, double length) {
   std::array<Radiance, 3> channels;
   for (std::size_t i = 0; i < 3; ++i) {
     channels[i] = v1_constant(tau, setting.medium.colour(0.5)[i], length);
@@ -212,8 +213,8 @@ std::array<Radiance, 3> of_one_colour(const Setting& setting, double tau, double
 
 // Returns the length of the part of the ray that is within this radius of the centre.
 double length_within(const Chord& chord, const Closest& closest, double radius) {
-  if (!(radius > closest.beside)) return 0;
-  const double half = std::sqrt((radius - closest.beside) * (radius + closest.beside));
+  if (!(radius > closest.distance)) return 0;
+  const double half = std::sqrt((radius - closest.distance) * (radius + closest.distance));
   return std::max(
       0.0, std::min(chord.end, closest.along + half) - std::max(chord.begin, closest.along - half));
 }
@@ -226,7 +227,7 @@ double length_within(const Chord& chord, const Closest& closest, double radius) 
 // |∂ᵢ²r| ≤ 1/r, with Δᵢ the spacing along axis i. In the zone, r is at least face − w, so w must be
 // h + D/(face − w − d). With s = face − d, this is the smaller root of (w − h)(s − w) = D. The
 // result is infinite if there is no root, which means that the grid is too coarse.
-double unsure_zone(const Setting& setting, double face) {
+double uncertain_zone(const Setting& setting, double face) {
   const auto& spacing = setting.options.spacing;
   double squares = 0;
   for (const double delta : spacing) squares += delta * delta;
@@ -273,7 +274,7 @@ AnalyticPixel constant_pixel(const Setting& setting, int x, int y) {
   const double tau = -std::log1p(-static_cast<double>(static_cast<float>(
                          -std::expm1(-setting.voxel * setting.medium.largest)))) /
                      setting.voxel;
-  const auto channels = of_one_colour(setting, tau, length);
+  const auto channels = single_colour_radiance(setting, tau, length);
   return finish(setting, channels, 0.0);
 }
 
@@ -313,7 +314,7 @@ AnalyticPixel gaussian_pixel(const Setting& setting, int x, int y) {
   const auto [nearest, p] = closest_to_centre(setting, chord);
   const double depth = v4_gaussian_depth(setting.medium.largest, sigma, p, chord.begin - nearest,
                                          chord.end - nearest);
-  const auto channels = of_one_colour(setting, depth, 1.0);
+  const auto channels = single_colour_radiance(setting, depth, 1.0);
   if (!(chord.length() > 0)) return finish(setting, channels, 0.0);
   const double error = table_error(setting, chord.length()) +
                        setting.medium.largest * blob_interpolation_error(setting, chord);
@@ -326,16 +327,16 @@ AnalyticPixel shell_pixel(const Setting& setting, int x, int y) {
   const Closest closest = closest_to_centre(setting, chord);
   const auto within = [&](double radius) { return length_within(chord, closest, radius); };
   const double length = within(shell.outer) - within(shell.inner);
-  const auto channels = of_one_colour(setting, setting.medium.largest, length);
+  const auto channels = single_colour_radiance(setting, setting.medium.largest, length);
   if (!(chord.length() > 0)) return finish(setting, channels, 0.0);
-  double unsure = 0;
+  double uncertain = 0;
   for (const double face : {shell.inner, shell.outer}) {
-    const double width = unsure_zone(setting, face);
-    unsure += within(face + width) - within(face - width);
+    const double width = uncertain_zone(setting, face);
+    uncertain += within(face + width) - within(face - width);
   }
   return finish(
       setting, channels,
-      -std::expm1(-setting.medium.largest * unsure) + table_error(setting, chord.length()));
+      -std::expm1(-setting.medium.largest * uncertain) + table_error(setting, chord.length()));
 }
 
 // The extinction is proportional to heights_product(), which is a cubic polynomial along the ray.
@@ -352,7 +353,7 @@ AnalyticPixel trilinear_pixel(const Setting& setting, int x, int y) {
       depth += half * setting.medium.tau(heights_product(setting, p));
     }
   }
-  const auto channels = of_one_colour(setting, depth, 1.0);
+  const auto channels = single_colour_radiance(setting, depth, 1.0);
   const double error = chord.length() > 0 ? table_error(setting, chord.length()) : 0.0;
   return finish(setting, channels, error);
 }
@@ -373,7 +374,7 @@ AnalyticPixel wave_pixel(const Setting& setting, int x, int y) {
   const double phase = k * z_at(setting, chord, chord.begin);
   const double rate = k * chord.direction.z;
   const double brightest = std::abs(chord.direction.z) * wave.steepest / light.gradient_floor;
-  std::array<Radiance, 3> channels = of_one_colour(setting, tau, length);
+  std::array<Radiance, 3> channels = single_colour_radiance(setting, tau, length);
   const double diffuse = light.diffuse * brightest * v9_lit_wave(tau, 1, phase, rate, length);
   const double specular = light.specular * std::pow(brightest, light.exponent) *
                           v9_lit_wave(tau, light.exponent, phase, rate, length);

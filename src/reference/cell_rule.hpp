@@ -66,7 +66,7 @@ struct OpenPoints {
   double end = 0;
   double most = 2;
   double open = 0;
-  double may_show = 0;  // number of points that may or may not have opacity
+  double maybe_visible = 0;  // number of points that may or may not have opacity
 };
 
 template <typename Stored>
@@ -83,12 +83,12 @@ class CellRule {
         smallest_spacing_(scene.smallest_spacing()),
         gradient_scale_(gradient_scale(*scene.grid)) {}
 
-  // Calls take(looked, opacity) for every piece that may be visible on a device, from front to
-  // back, until `take` returns false. The alphas of `looked` are meaningless.
+  // Calls take(lookup, opacity) for every piece that may be visible on a device, from front to
+  // back, until `take` returns false. The alphas of `lookup` are meaningless.
   template <typename Take>
   void walk(const Ray& ray, Take take) {
     const auto take_visible = [&](const Piece& piece) {
-      return !piece.visible || take(piece.looked, piece.opacity);
+      return !piece.visible || take(piece.lookup, piece.opacity);
     };
     const double slack = ray.slack();
     if (slack > 0.0 && !take_visible(piece_beyond(ray, -slack, 0.0))) return;
@@ -111,8 +111,8 @@ class CellRule {
       const double middle = 0.5 * (from + to);
       const double apart = (to - from) * (0.5 / std::sqrt(3.0));
       for (const double t : {middle - apart, middle + apart}) {
-        const Looked looked = look(ray, t);
-        if (looked.alpha_hi > 0.0 && !(looked.alpha_lo > 0.0)) points.may_show += 1;
+        const TableLookup lookup = look_up_at(ray, t);
+        if (lookup.alpha_hi > 0.0 && !(lookup.alpha_lo > 0.0)) points.maybe_visible += 1;
       }
       return take(points, gauss(ray, from, to, length_of(ray, from, to)).opacity);
     });
@@ -123,7 +123,7 @@ class CellRule {
 
   // Light and opacity of a piece, and the errors of both.
   struct Piece {
-    Looked looked;
+    TableLookup lookup;
     StepOpacity opacity;
     bool visible = false;
     Range extinction;             // range of the extinction over the points
@@ -155,7 +155,7 @@ class CellRule {
     double error = 0;      // error of these positions
     bool certain = false;  // whether the part is visible on every device
     bool touches_a_kink = false;
-    std::array<double, 2> of_cell{};  // distances at which the ray enters and leaves the cell
+    std::array<double, 2> cell_interval{};  // distances at which the ray enters and leaves the cell
   };
 
   // Returns the part if it may be visible on a device, and nullopt otherwise.
@@ -191,7 +191,7 @@ class CellRule {
             part + 1 < parts_ ? planes_[i] + width * (part + 1) / parts_ : planes_[i + 1];
         std::optional<Part> visible = visible_part(ray, begin, end);
         if (!visible) continue;
-        visible->of_cell = {planes_[i], planes_[i + 1]};
+        visible->cell_interval = {planes_[i], planes_[i + 1]};
         if (!cut_at_kinks(*visible, take)) return false;
       }
     }
@@ -259,9 +259,9 @@ class CellRule {
   }
 
   // Returns the ray with a position error that also covers a displacement of the points along the
-  // ray by up to `way`.
-  [[nodiscard]] static Ray widened(Ray ray, double way) {
-    ray.position_error = ray.position_error_within(way);
+  // ray by up to `distance`.
+  [[nodiscard]] static Ray widened(Ray ray, double distance) {
+    ray.position_error = ray.position_error_within(distance);
     return ray;
   }
 
@@ -276,7 +276,8 @@ class CellRule {
   // cell is cut into equal parts, the cuts move with the ends of the cell.
   [[nodiscard]] double end_error(const Ray& ray, const Part& part, double t) const {
     if (parts_ == 1 || (t > part.begin && t < part.end)) return time_error(ray, part, t);
-    return std::max(time_error(ray, part, part.of_cell[0]), time_error(ray, part, part.of_cell[1]));
+    return std::max(time_error(ray, part, part.cell_interval[0]),
+                    time_error(ray, part, part.cell_interval[1]));
   }
 
   // Returns the factor by which the range of the integrand, times the length of the piece, bounds
@@ -314,9 +315,9 @@ class CellRule {
     if (!(opacity.hi > 0.0)) return piece;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto [darkest, brightest] = joined(piece.colour[i], front.colour[i], back.colour[i]);
-      const double halved = front.opacity.nominal * front.looked.colour[i] +
-                            left * back.opacity.nominal * back.looked.colour[i];
-      piece.looked.colour_error[i] += change_of(halved, opacity.nominal * piece.looked.colour[i],
+      const double halved = front.opacity.nominal * front.lookup.colour[i] +
+                            left * back.opacity.nominal * back.lookup.colour[i];
+      piece.lookup.colour_error[i] += change_of(halved, opacity.nominal * piece.lookup.colour[i],
                                                 2.0 * half * densest * (brightest - darkest)) /
                                       opacity.hi;
     }
@@ -333,26 +334,26 @@ class CellRule {
     double lo;
     double hi;
   };
-  [[nodiscard]] static Extinction extinction(const Looked& looked) {
+  [[nodiscard]] static Extinction extinction(const TableLookup& lookup) {
     const auto of = [](double alpha) {
       constexpr double opaque = 8192 * 0.693147180559945309;
       return alpha < 1.0 ? extinction_of(alpha) : opaque;
     };
-    return {of(looked.alpha), of(looked.alpha_lo), of(looked.alpha_hi)};
+    return {of(lookup.alpha), of(lookup.alpha_lo), of(lookup.alpha_hi)};
   }
 
-  [[nodiscard]] Looked look(const Ray& ray, double t) const {
+  [[nodiscard]] TableLookup look_up_at(const Ray& ray, double t) const {
     const glm::dvec3 p = ray.entry + t * ray.voxels_per_unit;
     return table_.look_up(Table::span_of(field_.at(p, ray.position_error)));
   }
 
   // Shades the colour at t. This is also done at a point without opacity, because the colour of a
   // piece depends on the colours at both of its points.
-  void shade_at(const Ray& ray, double t, Looked& looked) const {
+  void shade_at(const Ray& ray, double t, TableLookup& lookup) const {
     const glm::dvec3 p = ray.entry + t * ray.voxels_per_unit;
     const double rounding = model_.compositing_error;
     shade(
-        looked,
+        lookup,
         headlight_cosine(field_, ray, p, gradient_scale_, scene_.shading.gradient_floor, rounding),
         scene_.shading, rounding);
   }
@@ -374,8 +375,8 @@ class CellRule {
                             const StepLength& length) const {
     const double middle = 0.5 * (from + to);
     const double apart = (to - from) * (0.5 / std::sqrt(3.0));
-    Looked a = look(ray, middle - apart);
-    Looked b = look(ray, middle + apart);
+    TableLookup a = look_up_at(ray, middle - apart);
+    TableLookup b = look_up_at(ray, middle + apart);
     Piece piece;
     piece.visible = a.alpha_hi > 0.0 || b.alpha_hi > 0.0;
     if (!piece.visible) return piece;
@@ -399,8 +400,8 @@ class CellRule {
     for (std::size_t i = 0; i < 3; ++i) {
       piece.colour[i] = std::minmax(a.colour[i], b.colour[i]);
       const double range = piece.colour[i].second - piece.colour[i].first;
-      piece.looked.colour[i] = a.colour[i] + f * (b.colour[i] - a.colour[i]);
-      piece.looked.colour_error[i] = std::max(a.colour_error[i], b.colour_error[i]) +
+      piece.lookup.colour[i] = a.colour[i] + f * (b.colour[i] - a.colour[i]);
+      piece.lookup.colour_error[i] = std::max(a.colour_error[i], b.colour_error[i]) +
                                      range * std::max(f_hi - f, f - f_lo) + rounding;
     }
     return piece;

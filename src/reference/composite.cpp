@@ -26,9 +26,9 @@ void Compositor::start() {
   first_stop_ = last_stop_ = never;
 }
 
-bool Compositor::add(const Looked& looked, const StepOpacity& opacity) {
+bool Compositor::add(const TableLookup& lookup, const StepOpacity& opacity) {
   const double error = std::max(opacity.hi - opacity.nominal, opacity.nominal - opacity.lo);
-  samples_.push_back({looked.colour, looked.colour_error, opacity.nominal, error, largest_});
+  samples_.push_back({lookup.colour, lookup.colour_error, opacity.nominal, error, largest_});
   const double rounding = model_.compositing_error * largest_;
   largest_ = std::min(largest_ * (1.0 - opacity.lo) + rounding, 1.0);
   smallest_ = std::max(smallest_ * (1.0 - opacity.hi) - rounding, 0.0);

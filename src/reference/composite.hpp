@@ -32,7 +32,7 @@ class Compositor {
 
   void start();
   // Adds a sample. Returns false if nothing behind this sample can be visible any more.
-  bool add(const Looked& looked, const StepOpacity& opacity);
+  bool add(const TableLookup& lookup, const StepOpacity& opacity);
   [[nodiscard]] Pixel finish() const;
 
  private:

@@ -101,10 +101,10 @@ class ConvergedRaycaster {
     if (all_transparent(cell)) return;
     if (scene_.shading.enabled) {
       for (int axis = 0; axis < 3; ++axis) {
-        glm::dvec3 one{0.0};
-        one[axis] = 1.0;
+        glm::dvec3 unit{0.0};
+        unit[axis] = 1.0;
         cell.gradient[static_cast<std::size_t>(axis)] = along([&](const glm::dvec3& p) {
-          return 0.5 * gradient_scale_[axis] * (field_.at(p + one) - field_.at(p - one));
+          return 0.5 * gradient_scale_[axis] * (field_.at(p + unit) - field_.at(p - unit));
         });
       }
       cut_at_kinks(cell, ray.direction);
@@ -178,15 +178,15 @@ class ConvergedRaycaster {
 
   [[nodiscard]] RayPoint point(const Cell& cell, const glm::dvec3& direction, double s,
                                const Rgba& rgba) const {
-    Looked looked;
-    std::copy_n(rgba.begin(), 3, looked.colour.begin());
+    TableLookup lookup;
+    std::copy_n(rgba.begin(), 3, lookup.colour.begin());
     if (scene_.shading.enabled) {
       const glm::dvec3 g{cell.gradient[0](s), cell.gradient[1](s), cell.gradient[2](s)};
       const double floor = scene_.shading.gradient_floor;
-      shade(looked, {std::abs(glm::dot(g, direction)) / std::max(glm::length(g), floor), 0.0},
+      shade(lookup, {std::abs(glm::dot(g, direction)) / std::max(glm::length(g), floor), 0.0},
             scene_.shading, 0.0);
     }
-    return {std::min(-std::log1p(-rgba[3]), most_extinction), looked.colour};
+    return {std::min(-std::log1p(-rgba[3]), most_extinction), lookup.colour};
   }
 
   // Integrates the piece from a to b. `whole` is the light of the piece according to a single
@@ -197,12 +197,12 @@ class ConvergedRaycaster {
     const double middle = 0.5 * (a + b);
     const PieceLight front = light(a, middle);
     const PieceLight back = light(middle, b);
-    const PieceLight both = front.before(back);
-    const double change = std::exp(-sum_.depth) * difference(both, whole);
+    const PieceLight combined = front.before(back);
+    const double change = std::exp(-sum_.depth) * difference(combined, whole);
     const double allowed = std::max(
         0.9 * share_per_voxel_ * length * (b - a) + 0x1.0p-20 * tolerance_, least_tolerance);
     if (change <= allowed || level == most_halvings) {
-      sum_ = sum_.before(both);
+      sum_ = sum_.before(combined);
       pixel_.bound += change;
       return;
     }

@@ -171,9 +171,9 @@ Bounded Field<Stored>::at(const glm::dvec3& p, const glm::dvec3& e) const {
     const double value = at(p);
     return {value, value_error_ + voxel_rounding_ * std::abs(value)};
   }
-  const Read here = read(p, e);
-  const double value = here.stored * scale_ + offset_;
-  const double error = error_of(here, e) * std::abs(scale_);
+  const Read sample = read(p, e);
+  const double value = sample.stored * scale_ + offset_;
+  const double error = error_of(sample, e) * std::abs(scale_);
   return {value, error + voxel_rounding_ * (std::abs(value) + error) + value_error_};
 }
 
@@ -189,18 +189,19 @@ Bounded Field<Stored>::difference(const glm::dvec3& a, const glm::dvec3& b,
   const glm::dvec3 e = shared_error + own_error;
   const Read above = read(a, e);
   const Read below = read(b, e);
-  const double each = error_of(above, e) + error_of(below, e);
+  const double separate_error = error_of(above, e) + error_of(below, e);
   const double rounded = std::abs(above.stored * scale_ + offset_) +
-                         std::abs(below.stored * scale_ + offset_) + each * std::abs(scale_);
-  double error = each;
+                         std::abs(below.stored * scale_ + offset_) +
+                         separate_error * std::abs(scale_);
+  double error = separate_error;
   if (above.local && below.local) {
     const glm::dvec3 bend = glm::max(above.slopes.hi - below.slopes.lo,  //
                                      below.slopes.hi - above.slopes.lo);
     const glm::dvec3 steepest = above.slopes.steepest() + below.slopes.steepest();
-    const double together = glm::dot(bend, shared_error) +
-                            own_error * (steepest.x + steepest.y + steepest.z) +
-                            filter_weight_error_ * (above.slopes.spread + below.slopes.spread);
-    error = std::min(error, together);
+    const double joint_error = glm::dot(bend, shared_error) +
+                               own_error * (steepest.x + steepest.y + steepest.z) +
+                               filter_weight_error_ * (above.slopes.spread + below.slopes.spread);
+    error = std::min(error, joint_error);
   }
   return {(above.stored - below.stored) * scale_,
           error * std::abs(scale_) + voxel_rounding_ * rounded + 2.0 * value_error_};

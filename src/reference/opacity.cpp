@@ -39,9 +39,9 @@ namespace {
 // [α−δ, α+δ], the derivative s·(1−α)^(s−1) is largest at α+δ for s < 1 and at α−δ for s ≥ 1. In
 // both cases it is at most s·(1−α)^s/(1−α)·(1 + z + 2z²) with z = max(1, s)·r, if z ≤ 1/20. For
 // larger z, the function returns a negative number.
-double small_change(const Looked& looked, double steps, double nominal) {
-  const double left = 1.0 - looked.alpha;
-  const double change = std::max(looked.alpha_hi - looked.alpha, looked.alpha - looked.alpha_lo);
+double small_change(const TableLookup& lookup, double steps, double nominal) {
+  const double left = 1.0 - lookup.alpha;
+  const double change = std::max(lookup.alpha_hi - lookup.alpha, lookup.alpha - lookup.alpha_lo);
   if (change == 0.0) return 0.0;
   const double z = std::max(1.0, steps) * change;
   if (!(z <= 0.05 * left)) return -1.0;
@@ -51,18 +51,19 @@ double small_change(const Looked& looked, double steps, double nominal) {
 
 }  // namespace
 
-StepOpacity step_opacity(const Looked& looked, const StepLength& steps, double relative_error) {
+StepOpacity step_opacity(const TableLookup& lookup, const StepLength& steps,
+                         double relative_error) {
   StepOpacity opacity;
-  opacity.nominal = step_opacity(looked.alpha, steps.nominal);
+  opacity.nominal = step_opacity(lookup.alpha, steps.nominal);
   opacity.lo = opacity.hi = opacity.nominal;
   const bool whole = steps.shortest == steps.nominal && steps.longest == steps.nominal;
-  const double change = whole ? small_change(looked, steps.nominal, opacity.nominal) : -1.0;
+  const double change = whole ? small_change(lookup, steps.nominal, opacity.nominal) : -1.0;
   if (change >= 0.0) {
     opacity.lo -= change;
     opacity.hi += change;
   } else {
-    opacity.lo = step_opacity(looked.alpha_lo, steps.shortest);
-    opacity.hi = step_opacity(looked.alpha_hi, steps.longest);
+    opacity.lo = step_opacity(lookup.alpha_lo, steps.shortest);
+    opacity.hi = step_opacity(lookup.alpha_hi, steps.longest);
   }
   opacity.lo = std::max(opacity.lo * (1.0 - relative_error), 0.0);
   opacity.hi = std::min(opacity.hi * (1.0 + relative_error), 1.0);

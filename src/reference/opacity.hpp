@@ -27,7 +27,7 @@ struct StepOpacity {
 // unbounded (near alpha = 1 with steps < 1), and if the sample exists on some devices but not on
 // others (its shortest length is 0). `relative_error` is the error of the device's own opacity
 // correction.
-[[nodiscard]] StepOpacity step_opacity(const Looked& looked, const StepLength& steps,
+[[nodiscard]] StepOpacity step_opacity(const TableLookup& lookup, const StepLength& steps,
                                        double relative_error);
 
 }  // namespace triptych::reference

@@ -125,7 +125,7 @@ class Stops {
 
 // The opacity of a sample on devices. `possible` means that it may have some opacity on a device,
 // and `certain` that it has some opacity on every device.
-struct Sight {
+struct SampleOpacity {
   bool possible = false;
   bool certain = false;
   StepOpacity opacity;
@@ -179,49 +179,51 @@ class Counter {
       const glm::dvec3 p = ray.entry + (i + 0.5) * stride;
       const bool ended = stops.may_end();  // whether some device may have ended the ray
       const bool open = ended || i >= fewest;
-      const Sight sight = look(ray, i, stride);
+      const SampleOpacity sample = opacity_of_sample(ray, i, stride);
       const bool near = crossings.is_near(p);
       const double passed = open ? crossings.between(p, p + stride) : 0;
       if (open || near) tally.samples += 1;
-      if (sight.possible && (open || !sight.certain)) tally.nonzero += 1;
+      if (sample.possible && (open || !sample.certain)) tally.nonzero += 1;
       tally.visited += passed + (near ? 1 : 0);
       tally.skipped += passed + (near ? 1 : 0);
-      if (sight.possible) stops.add(sight.opacity);
+      if (sample.possible) stops.add(sample.opacity);
       if (stops.must_end()) break;
       // A device counts the visits of all bricks in a run of consecutive visible bricks before it
       // draws the run. From this sample on, one device may have ended the ray, while another device
       // may have counted a run that extends to the end of the volume. Therefore all remaining
       // visits may differ.
       if (!ended && stops.may_end()) {
-        const double rest = crossings.between(p, ray.entry + most * stride);
-        tally.visited += rest;
-        tally.skipped += rest;
+        const double remaining = crossings.between(p, ray.entry + most * stride);
+        tally.visited += remaining;
+        tally.skipped += remaining;
         tally.terminated += 1;
       }
     }
     return tally;
   }
 
-  [[nodiscard]] Sight look(const Ray& ray, double i, const glm::dvec3& stride) const {
+  [[nodiscard]] SampleOpacity opacity_of_sample(const Ray& ray, double i,
+                                                const glm::dvec3& stride) const {
     const StepLength length{part(ray.length, i), part(ray.shortest, i), part(ray.longest, i)};
     return scene_.quadrature == scene::Quadrature::preintegrated
-               ? look_along(ray, i, stride, length)
-               : look_at(ray, ray.entry + (i + 0.5) * stride, length);
+               ? segment_opacity(ray, i, stride, length)
+               : point_opacity(ray, ray.entry + (i + 0.5) * stride, length);
   }
   // Returns the length of the i-th step, in voxel lengths.
   [[nodiscard]] double part(double chord, double i) const {
     return std::clamp(chord / smallest_spacing_ - i * scene_.step_voxels, 0.0, scene_.step_voxels);
   }
 
-  [[nodiscard]] Sight look_at(const Ray& ray, const glm::dvec3& p, const StepLength& length) const {
+  [[nodiscard]] SampleOpacity point_opacity(const Ray& ray, const glm::dvec3& p,
+                                            const StepLength& length) const {
     const Span span = Table::span_of(field_.at(p, ray.position_error));
     if (table_.transparent(span)) return {};
-    const Looked looked = table_.look_up(span);
-    return {true, looked.alpha_lo > 0, step_opacity(looked, length, model_.opacity_error)};
+    const TableLookup lookup = table_.look_up(span);
+    return {true, lookup.alpha_lo > 0, step_opacity(lookup, length, model_.opacity_error)};
   }
 
-  [[nodiscard]] Sight look_along(const Ray& ray, double i, const glm::dvec3& stride,
-                                 const StepLength& length) const {
+  [[nodiscard]] SampleOpacity segment_opacity(const Ray& ray, double i, const glm::dvec3& stride,
+                                              const StepLength& length) const {
     const double end = std::min(i + 1, std::max(steps(ray.length), i));
     const bool last = i + 1 > steps(ray.shortest);  // the step ends where the ray ends
     const Bounded front = field_.at(ray.entry + i * stride, ray.position_error);
@@ -240,7 +242,7 @@ class Counter {
       const bool ended = stops.may_end();
       const bool open = all || ended;
       tally.samples += open ? points.most : points.open;
-      tally.nonzero += open ? points.most : points.open + points.may_show;
+      tally.nonzero += open ? points.most : points.open + points.maybe_visible;
       const glm::dvec3 a = ray.entry + points.begin * ray.voxels_per_unit;
       const glm::dvec3 b = ray.entry + points.end * ray.voxels_per_unit;
       const double passed = open ? 1 + crossings.between(a, b) : 0;

@@ -18,11 +18,11 @@ struct PieceLight {
 
   // Returns the light of this piece and the next piece together. The next piece is behind this one.
   [[nodiscard]] PieceLight before(const PieceLight& next) const {
-    PieceLight both = *this;
+    PieceLight combined = *this;
     const double left = std::exp(-depth);
-    for (std::size_t i = 0; i < 3; ++i) both.colour[i] += left * next.colour[i];
-    both.depth += next.depth;
-    return both;
+    for (std::size_t i = 0; i < 3; ++i) combined.colour[i] += left * next.colour[i];
+    combined.depth += next.depth;
+    return combined;
   }
 };
 

@@ -37,16 +37,16 @@ std::vector<PathPiece> Preintegration::cut(double from, double to, double length
   const double per_entry = from == to ? 0.0 : length / std::abs(to - from);
   const double lowest = std::max(std::floor(std::min(from, to)) + 1.0, 0.0);
   const double highest = std::min(std::ceil(std::max(from, to)) - 1.0, last_entry);
-  double here = from;
-  const auto go_to = [&](double there) {
+  double position = from;
+  const auto advance_to = [&](double next) {
     pieces.push_back(
-        {at(here), at(there), per_entry * std::abs(there - here), 0.5 * (here + there)});
-    here = there;
+        {at(position), at(next), per_entry * std::abs(next - position), 0.5 * (position + next)});
+    position = next;
   };
   for (double n = 0.0; n <= highest - lowest; n += 1.0) {
-    go_to(direction > 0.0 ? lowest + n : highest - n);
+    advance_to(direction > 0.0 ? lowest + n : highest - n);
   }
-  go_to(to);
+  advance_to(to);
   if (from == to) pieces.back().length = length;
   return pieces;
 }
@@ -116,10 +116,10 @@ Segment Preintegration::operator()(const Bounded& front, const Bounded& back,
   Segment segment;
   segment.opacity = bound.opacity(opacity_of(light.depth));
   for (std::size_t i = 0; i < 3; ++i) {
-    segment.looked.colour[i] = segment.opacity.nominal > 0.0
+    segment.lookup.colour[i] = segment.opacity.nominal > 0.0
                                    ? light.colour[i] / segment.opacity.nominal
                                    : pieces.front().a[i];
-    segment.looked.colour_error[i] = bound.colour_error(i, segment.opacity);
+    segment.lookup.colour_error[i] = bound.colour_error(i, segment.opacity);
   }
   return segment;
 }

@@ -15,7 +15,7 @@
 namespace triptych::reference {
 
 struct Segment {
-  Looked looked;  // the colour is the light divided by the opacity; the alphas are not used
+  TableLookup lookup;  // the colour is the light divided by the opacity; the alphas are not used
   StepOpacity opacity;
 };
 

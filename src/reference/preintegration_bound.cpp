@@ -173,11 +173,11 @@ void PreintegrationBound::add_weights(const PathPiece& piece, double depth, doub
   // that case, the lower bound of its depth is its smallest extinction times its shortest length.
   const double thinnest =
       extinction_of(std::max(std::min(piece.a[3], piece.b[3]) - alpha_error, 0.0));
-  const double sure =
+  const double certain =
       added_ > 1 ? least
                  : std::min(least, depth_of((piece.length - path_.error / span_) * length.shortest,
                                             thinnest));
-  front_ *= std::exp(-sure / widening_);
+  front_ *= std::exp(-certain / widening_);
 }
 
 // Adds the error of one cell (the interval between two entries), or of a part of a cell at an end
@@ -202,13 +202,15 @@ void PreintegrationBound::add_deep_cell(const PathPiece& piece, double tilt) {
 // is the light in front of the previous piece.
 void PreintegrationBound::add_end(const PathPiece& piece, double position, const Reach& end) {
   const double e = path_.error;
-  const bool beside = std::floor(position - e) != std::floor(position + e);
-  const double share = path_.pieces == 1 ? 1.0 : beside ? 1.0 / span_ : piece.length + e / span_;
+  const bool may_cross_entry = std::floor(position - e) != std::floor(position + e);
+  const double share = path_.pieces == 1 ? 1.0
+                       : may_cross_entry ? 1.0 / span_
+                                         : piece.length + e / span_;
   const double length = widening_ * share * path_.length.longest;
   const double least = extinction_of(end.least_alpha);
   const double bend = end.bend();
   const double change = std::min(depth_of(length, bend), least > 0.0 ? bend / least : infinity);
-  const double front = beside ? front_before_ : front_;
+  const double front = may_cross_entry ? front_before_ : front_;
   for (std::size_t i = 0; i < 3; ++i) {
     ends_[i] += front * end.slope[i] * std::min(2.0 * change, 1.0);
   }

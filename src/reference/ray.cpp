@@ -13,8 +13,8 @@ double Ray::slack() const {
   return std::max(longest - length, length - shortest);
 }
 
-glm::dvec3 Ray::position_error_within(double way) const {
-  return position_error + way * glm::abs(voxels_per_unit);
+glm::dvec3 Ray::position_error_within(double distance) const {
+  return position_error + distance * glm::abs(voxels_per_unit);
 }
 
 RayMaker::RayMaker(const scene::VolumeScene& scene, double position_error_voxels)

@@ -22,8 +22,8 @@ struct Ray {
 
   // Returns the largest distance by which the ray may begin or end earlier or later on a device.
   [[nodiscard]] double slack() const;
-  // Returns the position error of a point that may be displaced along the ray by up to `way`.
-  [[nodiscard]] glm::dvec3 position_error_within(double way) const;
+  // Returns the position error of a point that may be displaced along the ray by up to `distance`.
+  [[nodiscard]] glm::dvec3 position_error_within(double distance) const;
 };
 
 // Sets `at` to the distances from the entry at which the ray crosses the planes of voxel centres of

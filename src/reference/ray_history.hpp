@@ -20,7 +20,7 @@ struct HistorySample {
   glm::dvec3 place_error{};
   std::optional<Bounded> front;  // the value at the front of a step, for quadrature=preintegrated
   Bounded value;                 // the value at the sample, or at the back of the step
-  Looked looked;                 // after shading; for a step, the alphas are not used
+  TableLookup lookup;            // after shading; for a step, the alphas are not used
   StepLength length;             // in voxel lengths
   StepOpacity opacity;
 };

@@ -56,7 +56,7 @@ template <typename Stored>
 // Replaces the looked-up colour by the shaded colour. `rounding` is the relative error of one
 // operation. Each squaring doubles a relative error, so the highlight has `exponent` roundings.
 // Adding the highlight to the colour contributes four more roundings.
-inline void shade(Looked& looked, const Bounded& cosine, const scene::Shading& shading,
+inline void shade(TableLookup& lookup, const Bounded& cosine, const scene::Shading& shading,
                   double rounding) {
   const double cosine_hi = std::min(cosine.value + cosine.error, 1.0);
   const double cosine_lo = std::max(cosine.value - cosine.error, 0.0);
@@ -68,11 +68,11 @@ inline void shade(Looked& looked, const Bounded& cosine, const scene::Shading& s
   const double factor = shading.ambient + shading.diffuse * cosine.value;
   const double factor_hi = shading.ambient + shading.diffuse * cosine_hi;
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    const double colour = looked.colour[channel];
-    looked.colour[channel] = colour * factor + shading.specular * highlight;
-    looked.colour_error[channel] =
-        looked.colour_error[channel] * factor_hi + colour * shading.diffuse * cosine.error +
-        shading.specular * highlight_error + 4.0 * rounding * looked.colour[channel];
+    const double colour = lookup.colour[channel];
+    lookup.colour[channel] = colour * factor + shading.specular * highlight;
+    lookup.colour_error[channel] =
+        lookup.colour_error[channel] * factor_hi + colour * shading.diffuse * cosine.error +
+        shading.specular * highlight_error + 4.0 * rounding * lookup.colour[channel];
   }
 }
 

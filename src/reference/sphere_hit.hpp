@@ -44,14 +44,15 @@ inline double first_surface(const Passage& ray) {
 // direction of the device's ray and d that of the exact ray. `shift` is the displacement of the
 // sphere's centre across the ray, relative to the radius. If the eye is closer to the surface than
 // `skin` (relative to distance + radius), it may be on the other side of the surface on a device.
-struct Wobble {
+struct GeometryError {
   double chord = 0;
   double shift = 0;
   double skin = 0;
 };
 
-// The possible results for one sphere, over all rays that the errors of a device (Wobble) allow.
-struct Reach {
+// The possible results for one sphere, over all rays that the errors of a device (GeometryError)
+// allow.
+struct HitRange {
   // Whether some ray may hit the sphere. If not, the members below are meaningless.
   bool possible = false;
   bool covers = false;  // whether every ray hits the sphere
@@ -69,25 +70,25 @@ struct Reach {
 //   |b' − b| = |b·(cos φ − 1) ± p·sin φ| ≤ Δb = p·chord + |b|·chord²/2,
 //   h'² = r² − p'² between h² − ((p + δ)² − p²) and h² + (p² − (p − δ)²),
 // with p' between 0 and |C| + shift·r. The bounds on t = b' ∓ h' are the sums of the bounds on its
-// two terms. The bounds on h'² are computed from h² instead of from p', so that without a wobble,
+// two terms. The bounds on h'² are computed from h² instead of from p', so that without errors,
 // the result is bit-identical to that for the exact ray.
-inline Reach reach(const Passage& ray, const Wobble& wobble) {
-  Reach result;
-  const double shift = wobble.shift * ray.radius;
-  const double delta = wobble.chord * ray.distance + shift;
+inline HitRange hit_range(const Passage& ray, const GeometryError& error) {
+  HitRange result;
+  const double shift = error.shift * ray.radius;
+  const double delta = error.chord * ray.distance + shift;
   const double down = std::min(delta, ray.across);
   const double highest = ray.half_squared + down * (2 * ray.across - down);
   if (!(highest >= 0)) return result;
-  const double room = std::max(ray.distance + shift - ray.across, 0.0);
-  const double up = std::min(delta, room);
+  const double largest_shift = std::max(ray.distance + shift - ray.across, 0.0);
+  const double up = std::min(delta, largest_shift);
   const double lowest = ray.half_squared - up * (2 * ray.across + up);
   // Δb, the bound on |b' − b| that is derived above.
-  const double slide = wobble.chord * (ray.across + 0.5 * wobble.chord * std::abs(ray.along));
+  const double slide = error.chord * (ray.across + 0.5 * error.chord * std::abs(ray.along));
   result.half_hi = std::sqrt(highest);
   result.half_lo = std::sqrt(std::max(lowest, 0.0));
 
   const double rounding = 1e-14;
-  const double skin = shift + (wobble.skin + rounding) * (ray.distance + ray.radius);
+  const double skin = shift + (error.skin + rounding) * (ray.distance + ray.radius);
   const double outside = ray.distance - ray.radius;
   if (std::abs(outside) <= skin) {
     // The eye may be inside or outside the sphere, so both surface points are possible.

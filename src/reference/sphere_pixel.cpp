@@ -40,9 +40,9 @@ double SphereSetup::chord(double pixels, double along) const {
 }
 
 // Let D be the distance from the eye to a box's farthest corner (no radius in the box is above D),
-// and κ = chord + shift (Wobble). According to reach(), a nearby ray may hit a sphere in the box
-// only if the central ray comes within δ ≤ κD of the sphere, and the hit may move along the ray by
-// up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for rounding.
+// and κ = chord + shift (GeometryError). According to hit_range(), a nearby ray may hit a sphere in
+// the box only if the central ray comes within δ ≤ κD of the sphere, and the hit may move along the
+// ray by up to Δb ≤ (chord + chord²/2)·D. 1e-12 is added for rounding.
 double SphereSetup::growth() const {
   const double turn = chord(std::max(model.margin_px, model.lateral_px), 1.0);
   const double kappa = turn + model.lateral_relative;
@@ -74,15 +74,15 @@ SpherePixel SphereTracer::operator()(int x, int y) {
   const double slack = setup_.model.depth_relative * setup_.tree.farthest();
   setup_.tree.walk(
       view.direction, [&] { return (covered_ + slack) / view.along * (1 + 1e-12); },
-      [&](std::uint32_t place) { meet(view, place); });
+      [&](std::uint32_t place) { test_sphere(view, place); });
 
   SpherePixel pixel;
   const bool hit = distance_ < unreached;
   if (hit) {
-    const Passage ray = pass(view, shown_);
-    pixel.rgba = shaded(shown_, std::sqrt(ray.half_squared) / ray.radius);
+    const Passage ray = pass(view, visible_);
+    pixel.rgba = shaded(visible_, std::sqrt(ray.half_squared) / ray.radius);
     pixel.depth = distance_ * view.along;
-    pixel.id = setup_.scene.particles->ids[setup_.tree.sphere(shown_).index];
+    pixel.id = setup_.scene.particles->ids[setup_.tree.sphere(visible_).index];
   } else {
     std::ranges::copy(setup_.scene.background, pixel.rgba.begin());
     pixel.depth = unreached;
@@ -93,9 +93,9 @@ SpherePixel SphereTracer::operator()(int x, int y) {
                     return is_rival(c);
                   });
   if (!pixel.certain) {
-    bound_all(view, pixel);
+    bound_from_candidates(view, pixel);
   } else if (hit) {
-    bound_shown(view, pixel);
+    bound_from_visible_sphere(view, pixel);
   }
   pixel.bound += setup_.model.colour_relative;
   return pixel;
@@ -107,8 +107,8 @@ std::vector<std::uint32_t> SphereTracer::spheres_near(int x, int y) const {
   setup_.tree.walk(
       view.direction, [] { return unreached; },
       [&](std::uint32_t place) {
-        const Reach reached = reach(pass(view, place), view.margin);
-        if (reached.possible) found.push_back({place, reached.nearest});
+        const HitRange range = hit_range(pass(view, place), view.margin);
+        if (range.possible) found.push_back({place, range.nearest});
       });
   std::ranges::stable_sort(found, {}, &Candidate::nearest);
   std::vector<std::uint32_t> indices;
@@ -136,24 +136,24 @@ Passage SphereTracer::pass(const View& view, std::uint32_t place) const {
                  sphere.radius);
 }
 
-void SphereTracer::meet(const View& view, std::uint32_t place) {
+void SphereTracer::test_sphere(const View& view, std::uint32_t place) {
   const Passage ray = pass(view, place);
-  const Reach reached = reach(ray, view.margin);
-  if (!reached.possible) return;
+  const HitRange range = hit_range(ray, view.margin);
+  if (!range.possible) return;
   const double error = setup_.model.depth_relative * (ray.distance + ray.radius);
-  const double nearest = reached.nearest * view.along - error;
+  const double nearest = range.nearest * view.along - error;
   if (nearest > covered_) return;
   candidates_.push_back({place, nearest});
-  if (reached.covers) covered_ = std::min(covered_, reached.farthest * view.along + error);
+  if (range.covers) covered_ = std::min(covered_, range.farthest * view.along + error);
 
   const double distance = first_surface(ray);
   if (!(distance <= distance_) || distance == unreached) return;
   const auto id = [&](std::uint32_t other) {
     return setup_.scene.particles->ids[setup_.tree.sphere(other).index];
   };
-  if (distance < distance_ || id(place) < id(shown_)) {
+  if (distance < distance_ || id(place) < id(visible_)) {
     distance_ = distance;
-    shown_ = place;
+    visible_ = place;
   }
 }
 
@@ -162,9 +162,9 @@ bool SphereTracer::is_rival(const Candidate& candidate) const {
   // later.
   if (candidate.nearest > covered_) return false;
   if (distance_ == unreached) return true;
-  const SphereTree::Sphere& shown = setup_.tree.sphere(shown_);
+  const SphereTree::Sphere& visible = setup_.tree.sphere(visible_);
   const SphereTree::Sphere& other = setup_.tree.sphere(candidate.place);
-  return other.centre != shown.centre || other.radius != shown.radius;
+  return other.centre != visible.centre || other.radius != visible.radius;
 }
 
 std::array<double, 4> SphereTracer::shaded(std::uint32_t place, double half) const {
@@ -175,26 +175,26 @@ std::array<double, 4> SphereTracer::shaded(std::uint32_t place, double half) con
 }
 
 // A prime marks a quantity of a device. The distance t' along the ray and half the chord h' are
-// within the intervals that Reach contains. The depth Z is t·cos α, where α is the angle between
+// within the intervals that HitRange contains. The depth Z is t·cos α, where α is the angle between
 // the ray and the view axis. A device's ray is rotated by φ, which changes α, too:
 //   |cos α' − cos α| = 2·sin(φ/2)·|sin(α ± φ/2)| ≤ chord·(sin α + chord/2).
 // The colour is linear in h.
-void SphereTracer::bound_shown(const View& view, SpherePixel& pixel) const {
-  const Passage ray = pass(view, shown_);
-  const Reach reached = reach(ray, view.lateral);
+void SphereTracer::bound_from_visible_sphere(const View& view, SpherePixel& pixel) const {
+  const Passage ray = pass(view, visible_);
+  const HitRange range = hit_range(ray, view.lateral);
   const double change =
-      std::max(reached.farthest - distance_, distance_ - reached.nearest) * view.along;
+      std::max(range.farthest - distance_, distance_ - range.nearest) * view.along;
   const double sine = std::sqrt(std::max(1 - view.along * view.along, 0.0));
   const double turn =
-      view.lateral.chord * std::min(sine + 0.5 * view.lateral.chord, 1.0) * reached.farthest;
+      view.lateral.chord * std::min(sine + 0.5 * view.lateral.chord, 1.0) * range.farthest;
   pixel.depth_bound = change + turn + setup_.model.depth_relative * (ray.distance + ray.radius);
-  for (const double half : {reached.half_lo, std::min(reached.half_hi, ray.radius)}) {
+  for (const double half : {range.half_lo, std::min(range.half_hi, ray.radius)}) {
     pixel.bound =
-        std::max(pixel.bound, largest_difference(pixel.rgba, shaded(shown_, half / ray.radius)));
+        std::max(pixel.bound, largest_difference(pixel.rgba, shaded(visible_, half / ray.radius)));
   }
 }
 
-void SphereTracer::bound_all(const View& view, SpherePixel& pixel) const {
+void SphereTracer::bound_from_candidates(const View& view, SpherePixel& pixel) const {
   pixel.depth_bound = unreached;
   if (covered_ == unreached) {
     std::array<double, 4> background{};
@@ -204,8 +204,8 @@ void SphereTracer::bound_all(const View& view, SpherePixel& pixel) const {
   for (const Candidate& candidate : candidates_) {
     if (candidate.nearest > covered_) continue;
     const Passage ray = pass(view, candidate.place);
-    const Reach reached = reach(ray, view.margin);
-    for (const double half : {reached.half_lo, std::min(reached.half_hi, ray.radius)}) {
+    const HitRange range = hit_range(ray, view.margin);
+    for (const double half : {range.half_lo, std::min(range.half_hi, ray.radius)}) {
       const auto other = shaded(candidate.place, half / ray.radius);
       pixel.bound = std::max(pixel.bound, largest_difference(pixel.rgba, other));
     }

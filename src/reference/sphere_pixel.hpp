@@ -81,24 +81,24 @@ class SphereTracer {
     glm::dvec3 direction{};
     double along = 0;  // cosine between the ray and the view axis
     // A pixel is certain only if all rays within this margin hit the same particle.
-    Wobble margin;
-    Wobble lateral;  // errors of the ray and of spheres on a device
+    GeometryError margin;
+    GeometryError lateral;  // errors of the ray and of spheres on a device
   };
 
   [[nodiscard]] View view(int x, int y) const;
   [[nodiscard]] Passage pass(const View& view, std::uint32_t place) const;
-  void meet(const View& view, std::uint32_t place);
+  void test_sphere(const View& view, std::uint32_t place);
   [[nodiscard]] bool is_rival(const Candidate& candidate) const;
   // Returns the colour at a point where half the chord is `half` times the radius.
   [[nodiscard]] std::array<double, 4> shaded(std::uint32_t place, double half) const;
-  void bound_shown(const View& view, SpherePixel& pixel) const;
-  void bound_all(const View& view, SpherePixel& pixel) const;
+  void bound_from_visible_sphere(const View& view, SpherePixel& pixel) const;
+  void bound_from_candidates(const View& view, SpherePixel& pixel) const;
 
   const SphereSetup& setup_;
   std::vector<Candidate> candidates_;
-  double covered_ = 0;       // smallest Z at which every ray within the margin has hit a sphere
-  double distance_ = 0;      // distance of the visible surface along the ray
-  std::uint32_t shown_ = 0;  // index of the visible sphere in the tree
+  double covered_ = 0;         // smallest Z at which every ray within the margin has hit a sphere
+  double distance_ = 0;        // distance of the visible surface along the ray
+  std::uint32_t visible_ = 0;  // index of the visible sphere in the tree
 };
 
 }  // namespace triptych::reference

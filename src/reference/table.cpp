@@ -33,31 +33,31 @@ Table::Rgba Table::at(double position) const {
           a[3] + f * (b[3] - a[3])};
 }
 
-Looked Table::look_up(const Span& span) const {
+TableLookup Table::look_up(const Span& span) const {
   const std::size_t k = std::min(static_cast<std::size_t>(span.centre), entries - 2);
   const double f = span.centre - static_cast<double>(k);
   const Rgba& a = rgba_[k];
   const Rgba& b = rgba_[k + 1];
-  Looked looked;
+  TableLookup lookup;
   if (span.lo >= static_cast<double>(k) && span.hi <= static_cast<double>(k + 1)) {
     // The function is linear over the whole span, which is nearly always the case.
     const double reach = std::max(span.hi - span.centre, span.centre - span.lo);
     for (std::size_t channel = 0; channel < 3; ++channel) {
       const double slope = b[channel] - a[channel];
-      looked.colour[channel] = a[channel] + f * slope;
-      looked.colour_error[channel] = reach * std::abs(slope) + table_error_;
+      lookup.colour[channel] = a[channel] + f * slope;
+      lookup.colour_error[channel] = reach * std::abs(slope) + table_error_;
     }
     const double slope = b[3] - a[3];
     const double change = reach * std::abs(slope) + table_error_;
-    looked.alpha = a[3] + f * slope;
-    looked.alpha_lo = std::max(looked.alpha - change, 0.0);
-    looked.alpha_hi = std::min(looked.alpha + change, 1.0);
-    return looked;
+    lookup.alpha = a[3] + f * slope;
+    lookup.alpha_lo = std::max(lookup.alpha - change, 0.0);
+    lookup.alpha_hi = std::min(lookup.alpha + change, 1.0);
+    return lookup;
   }
   return look_up_across_entries(span);
 }
 
-Looked Table::look_up_across_entries(const Span& span) const {
+TableLookup Table::look_up_across_entries(const Span& span) const {
   const Rgba centre = at(span.centre);
   Rgba lo = centre;
   Rgba hi = centre;
@@ -71,16 +71,16 @@ Looked Table::look_up_across_entries(const Span& span) const {
   widen(at(span.hi));
   const auto last = static_cast<std::size_t>(span.hi);
   for (std::size_t k = static_cast<std::size_t>(span.lo) + 1; k <= last; ++k) widen(rgba_[k]);
-  Looked looked;
+  TableLookup lookup;
   for (std::size_t channel = 0; channel < 3; ++channel) {
-    looked.colour[channel] = centre[channel];
-    looked.colour_error[channel] =
+    lookup.colour[channel] = centre[channel];
+    lookup.colour_error[channel] =
         std::max(hi[channel] - centre[channel], centre[channel] - lo[channel]) + table_error_;
   }
-  looked.alpha = centre[3];
-  looked.alpha_lo = std::max(lo[3] - table_error_, 0.0);
-  looked.alpha_hi = std::min(hi[3] + table_error_, 1.0);
-  return looked;
+  lookup.alpha = centre[3];
+  lookup.alpha_lo = std::max(lo[3] - table_error_, 0.0);
+  lookup.alpha_hi = std::min(hi[3] + table_error_, 1.0);
+  return lookup;
 }
 
 }  // namespace triptych::reference

@@ -10,7 +10,7 @@
 namespace triptych::reference {
 
 // The result of looking up a value, and the possible results if the value has an error.
-struct Looked {
+struct TableLookup {
   std::array<double, 3> colour{};        // not premultiplied
   std::array<double, 3> colour_error{};  // largest difference from `colour`
   double alpha = 0;                      // per voxel length
@@ -37,7 +37,7 @@ class Table {
 
   // Returns the extremes of the piecewise linear function over the span, widened by table_error.
   // All entries in the span are taken into account, so that no kink or spike is missed.
-  [[nodiscard]] Looked look_up(const Span& span) const;
+  [[nodiscard]] TableLookup look_up(const Span& span) const;
 
   // Returns whether every entry that contributes anywhere in the span is completely transparent.
   // table_error does not matter here, because interpolating zeros gives zero in any arithmetic.
@@ -54,7 +54,7 @@ class Table {
 
  private:
   static constexpr std::size_t entries = 256;
-  [[nodiscard]] Looked look_up_across_entries(const Span& span) const;
+  [[nodiscard]] TableLookup look_up_across_entries(const Span& span) const;
 
   std::array<Rgba, entries> rgba_{};
   // For each entry, the first entry at or after it whose alpha is greater than 0.

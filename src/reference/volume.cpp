@@ -67,8 +67,8 @@ class Raycaster {
       case scene::Quadrature::preintegrated:
         return walk_segments(ray);
       case scene::Quadrature::cells:
-        return cells_.walk(ray, [&](const Looked& looked, const StepOpacity& opacity) {
-          return compositor_.add(looked, opacity);
+        return cells_.walk(ray, [&](const TableLookup& lookup, const StepOpacity& opacity) {
+          return compositor_.add(lookup, opacity);
         });
     }
   }
@@ -124,31 +124,31 @@ class Raycaster {
       }
       if (!segments_.transparent(front, back)) {
         const Segment segment = segments_(front, back, part);
-        if (!add(ray, middle, segment.looked, segment.opacity)) return;
+        if (!add(ray, middle, segment.lookup, segment.opacity)) return;
       }
       front = back;
     }
   }
 
   bool add(const Ray& ray, const glm::dvec3& p, const Span& span, const StepLength& length) {
-    const Looked looked = table_.look_up(span);
-    return add(ray, p, looked, step_opacity(looked, length, model_.opacity_error));
+    const TableLookup lookup = table_.look_up(span);
+    return add(ray, p, lookup, step_opacity(lookup, length, model_.opacity_error));
   }
 
-  bool add(const Ray& ray, const glm::dvec3& p, Looked looked, const StepOpacity& opacity) {
+  bool add(const Ray& ray, const glm::dvec3& p, TableLookup lookup, const StepOpacity& opacity) {
     if (scene_.shading.enabled) {
       const double rounding = model_.compositing_error;
-      shade(looked,
+      shade(lookup,
             headlight_cosine(field_, ray, p, gradient_scale_, scene_.shading.gradient_floor,
                              rounding),
             scene_.shading, rounding);
     }
     if (history_ != nullptr) {
-      history_->samples.back().looked = looked;
+      history_->samples.back().lookup = lookup;
       history_->samples.back().opacity = opacity;
       return true;  // a history continues to the end of the ray
     }
-    return compositor_.add(looked, opacity);
+    return compositor_.add(lookup, opacity);
   }
 
   const scene::VolumeScene& scene_;

@@ -15,7 +15,7 @@ accuracy::AllowedRange around(const reference::Bounded& bounded) {
 }
 
 accuracy::ExpectedSample expected_sample(const reference::HistorySample& sample) {
-  const reference::Looked& looked = sample.looked;
+  const reference::TableLookup& lookup = sample.lookup;
   accuracy::ExpectedSample expected{
       .index = sample.index,
       .position = {around(sample.place.x, sample.place_error.x),
@@ -23,10 +23,10 @@ accuracy::ExpectedSample expected_sample(const reference::HistorySample& sample)
                    around(sample.place.z, sample.place_error.z)},
       .front = {},
       .value = around(sample.value),
-      .colour = {around(looked.colour[0], looked.colour_error[0]),
-                 around(looked.colour[1], looked.colour_error[1]),
-                 around(looked.colour[2], looked.colour_error[2])},
-      .alpha = accuracy::AllowedRange{looked.alpha, looked.alpha_lo, looked.alpha_hi},
+      .colour = {around(lookup.colour[0], lookup.colour_error[0]),
+                 around(lookup.colour[1], lookup.colour_error[1]),
+                 around(lookup.colour[2], lookup.colour_error[2])},
+      .alpha = accuracy::AllowedRange{lookup.alpha, lookup.alpha_lo, lookup.alpha_hi},
       .length = {sample.length.nominal, sample.length.shortest, sample.length.longest},
       .opacity = {sample.opacity.nominal, sample.opacity.lo, sample.opacity.hi}};
   if (sample.front) {

@@ -266,12 +266,12 @@ TEST(Bound, GrowsWithEveryTermOfTheModel) {
        {&ErrorModel::position_error_voxels, &ErrorModel::value_error, &ErrorModel::voxel_rounding,
         &ErrorModel::filter_weight_error, &ErrorModel::table_error, &ErrorModel::opacity_error,
         &ErrorModel::compositing_error}) {
-    ErrorModel one;
-    one.*term = 1e-5;
-    ErrorModel two;
-    two.*term = 2e-5;
-    EXPECT_GT(total(one), 0.0);
-    EXPECT_NEAR(total(two) / total(one), 2.0, 0.1);  // the bound is proportional to each error
+    ErrorModel first;
+    first.*term = 1e-5;
+    ErrorModel second;
+    second.*term = 2e-5;
+    EXPECT_GT(total(first), 0.0);
+    EXPECT_NEAR(total(second) / total(first), 2.0, 0.1);  // the bound is proportional to each error
   }
 }
 
@@ -282,13 +282,13 @@ TEST(StepOpacity, EnclosesEveryAllowedValue) {
   for (const double alpha : {1e-6, 0.01, 0.5, 0.99, 1 - 1e-7, 1.0}) {
     for (const double error : {0.0, 1e-8, 1e-4, 0.03}) {
       for (const double steps : {0.1, 0.5, 1.0, 3.0, 40.0}) {
-        Looked looked;
-        looked.alpha = alpha;
-        looked.alpha_lo = std::max(alpha - error, 0.0);
-        looked.alpha_hi = std::min(alpha + error, 1.0);
-        const StepOpacity opacity = step_opacity(looked, {steps, steps, steps}, 0.0);
+        TableLookup lookup;
+        lookup.alpha = alpha;
+        lookup.alpha_lo = std::max(alpha - error, 0.0);
+        lookup.alpha_hi = std::min(alpha + error, 1.0);
+        const StepOpacity opacity = step_opacity(lookup, {steps, steps, steps}, 0.0);
         for (int n = 0; n <= 20; ++n) {
-          const double a = looked.alpha_lo + n / 20.0 * (looked.alpha_hi - looked.alpha_lo);
+          const double a = lookup.alpha_lo + n / 20.0 * (lookup.alpha_hi - lookup.alpha_lo);
           const double value = step_opacity(std::min(a, 1.0), steps);
           EXPECT_GE(value, opacity.lo - 1e-15) << alpha << ' ' << error << ' ' << steps;
           EXPECT_LE(value, opacity.hi + 1e-15) << alpha << ' ' << error << ' ' << steps;

@@ -43,7 +43,7 @@ TEST(CellsImage, ConvergesToTheLimitOfTheMidpointRule) {
 
 // Returns a table in which opacity and red rise linearly up to the ridge and fall linearly after
 // it.
-scene::TransferFunction roof(double ridge) {
+scene::TransferFunction tent_function(double ridge) {
   scene::TransferFunction function;
   for (std::size_t k = 0; k < 256; ++k) {
     const auto x = static_cast<float>(1 - std::abs(static_cast<double>(k) - ridge) / 256);
@@ -54,7 +54,7 @@ scene::TransferFunction roof(double ridge) {
 
 double order_of(std::string_view data, double ridge) {
   scene::VolumeScene scene = volume_scene_of(data, "haze");
-  scene.transfer_function = roof(ridge);
+  scene.transfer_function = tent_function(ridge);
   scene.step_voxels = 1.0 / 32;
   const Truth limit = render_volume(scene);
   scene.step_voxels = 1;

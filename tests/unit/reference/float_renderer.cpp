@@ -170,13 +170,13 @@ class FloatRenderer {
   }
 
   void add(const vec3& p, const vec3& d, float share, vec3& colour, float& transmittance) const {
-    const vec4 looked = transfer(field(p));
-    if (!(looked.a > 0.0F)) return;
-    const vec3 own = scene_.shading.enabled ? shaded(vec3(looked), p, d) : vec3(looked);
+    const vec4 rgba = transfer(field(p));
+    if (!(rgba.a > 0.0F)) return;
+    const vec3 own = scene_.shading.enabled ? shaded(vec3(rgba), p, d) : vec3(rgba);
     const float steps = static_cast<float>(scene_.step_voxels) * share;
     float opacity = 0.0F;
     if (steps > 0.0F) {
-      opacity = looked.a >= 1.0F ? 1.0F : -std::expm1(steps * std::log1p(-looked.a));
+      opacity = rgba.a >= 1.0F ? 1.0F : -std::expm1(steps * std::log1p(-rgba.a));
     }
     const float weight = transmittance * opacity;
     colour += weight * own;

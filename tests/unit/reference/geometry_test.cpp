@@ -38,18 +38,18 @@ ErrorModel some_model() {
 TEST(Reference, SameBitsForAnyNumberOfThreads) {
   scene::VolumeScene scene = random_scene(1, Character::rough, scene::VoxelFormat::u8);
   scene.shading.enabled = true;
-  const Truth one = render_volume(scene, some_model(), 1);
+  const Truth single = render_volume(scene, some_model(), 1);
   const Truth limit =
       render_volume_converged(random_scene(1, Character::smooth, scene::VoxelFormat::u8), 1e-4, 1);
   for (const int threads : {0, 2, 3, 16, 100}) {
-    const Truth many = render_volume(scene, some_model(), threads);
-    EXPECT_EQ(one.rgba, many.rgba) << threads;
-    EXPECT_EQ(one.bound, many.bound) << threads;
+    const Truth threaded = render_volume(scene, some_model(), threads);
+    EXPECT_EQ(single.rgba, threaded.rgba) << threads;
+    EXPECT_EQ(single.bound, threaded.bound) << threads;
   }
-  const Truth limit_of_many =
+  const Truth limit_of_many_threads =
       render_volume_converged(random_scene(1, Character::smooth, scene::VoxelFormat::u8), 1e-4, 5);
-  EXPECT_EQ(limit.rgba, limit_of_many.rgba);
-  EXPECT_EQ(limit.bound, limit_of_many.bound);
+  EXPECT_EQ(limit.rgba, limit_of_many_threads.rgba);
+  EXPECT_EQ(limit.bound, limit_of_many_threads.bound);
 }
 
 TEST(Reference, AllOctantsMirrorEachOther) {

@@ -40,7 +40,7 @@ TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
     const Segment found = segment(table, from, to, 0.07);
     EXPECT_EQ(found.opacity.nominal, 1);
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(found.looked.colour[i], table.at(from)[i], 1e-12) << from << ' ' << to;
+      EXPECT_NEAR(found.lookup.colour[i], table.at(from)[i], 1e-12) << from << ' ' << to;
     }
   }
   // The integral is ∫ c·τT from entry 119 on, with colour c, extinction τ and transmittance T. The
@@ -56,7 +56,7 @@ TEST(PreintegratedStep, EndsWhereItsPathIsOpaque) {
     seen += left * opacity * alpha;  // red rises from 0 to 1 together with the opacity
     left -= left * opacity;
   }
-  EXPECT_NEAR(ramp.looked.colour[0], seen + left, 1e-6);
+  EXPECT_NEAR(ramp.lookup.colour[0], seen + left, 1e-6);
 }
 
 // Problem V3 (reference/closed_forms.hpp) has linear extinction and linear colour. Because the
@@ -76,9 +76,9 @@ TEST(PreintegratedStep, IsV3WhereTheTableIsARamp) {
                                        (to - from) / 255 / length, length});
       const Segment found = segment(table, from, to, length);
       EXPECT_NEAR(found.opacity.nominal, red.opacity, 1e-6 * length);
-      EXPECT_NEAR(found.opacity.nominal * found.looked.colour[0], red.colour, 1e-6 * length)
+      EXPECT_NEAR(found.opacity.nominal * found.lookup.colour[0], red.colour, 1e-6 * length)
           << from << ' ' << to << ' ' << length;
-      EXPECT_NEAR(found.looked.colour[2], 0.5, 1e-12);
+      EXPECT_NEAR(found.lookup.colour[2], 0.5, 1e-12);
     }
   }
 }
@@ -108,7 +108,7 @@ TEST(PreintegratedStep, IsTheIntegralOfASteepTable) {
     const Segment found = segment(table, from, to, length);
     EXPECT_NEAR(found.opacity.nominal, 1 - left, 1e-8);
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(found.opacity.nominal * found.looked.colour[i], colour[i], 1e-8) << from;
+      EXPECT_NEAR(found.opacity.nominal * found.lookup.colour[i], colour[i], 1e-8) << from;
     }
   }
 }

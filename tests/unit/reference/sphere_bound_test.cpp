@@ -19,7 +19,7 @@
 namespace triptych::reference {
 namespace {
 
-double difference(const SphereTruth& truth, std::size_t i, const Shown& shown) {
+double difference(const SphereTruth& truth, std::size_t i, const VisibleSphere& shown) {
   double largest = 0;
   for (std::size_t channel = 0; channel < 4; ++channel) {
     largest = std::max(largest, std::abs(truth.rgba[4 * i + channel] - shown.rgba[channel]));
@@ -62,13 +62,13 @@ void expect_bounded(const scene::ParticleScene& scene, const SphereErrorModel& m
     const bool certain = truth.certain[i] != 0;
     for (const Place& place :
          places_around(i, scene.width, std::max(model.margin_px, model.lateral_px))) {
-      const Shown shown = brute_force(scene, ray_at(scene, place.x, place.y));
+      const VisibleSphere shown = brute_force(scene, ray_at(scene, place.x, place.y));
       if (certain && shown.id != truth.ids[i]) ++wrong_id;
       if (!certain && difference(truth, i, shown) > truth.bound[i] + rounding) ++wrong_colour;
     }
     if (!certain) continue;
     for (const Place& place : places_around(i, scene.width, model.lateral_px)) {
-      const Shown shown = brute_force(scene, ray_at(scene, place.x, place.y));
+      const VisibleSphere shown = brute_force(scene, ray_at(scene, place.x, place.y));
       if (difference(truth, i, shown) > truth.bound[i] + rounding) ++wrong_colour;
       if (shown.depth == truth.depth[i]) continue;
       const double off = std::abs(shown.depth - truth.depth[i]);
@@ -149,7 +149,7 @@ TEST(SphereBounds, AreAsTightAsTheyCanBe) {
     double depth_change = 0;
     double colour_change = 0;
     for (const Place& place : places_around(i, scene.width, model.lateral_px)) {
-      const Shown shown = brute_force(scene, ray_at(scene, place.x, place.y));
+      const VisibleSphere shown = brute_force(scene, ray_at(scene, place.x, place.y));
       depth_change = std::max(depth_change, std::abs(shown.depth - truth.depth[i]));
       colour_change = std::max(colour_change, difference(truth, i, shown));
     }
@@ -183,7 +183,7 @@ TEST(SphereBounds, AParticleSmallerThanTheMarginIsNoticed) {
   EXPECT_EQ(truth.ids[middle], 0U);
   EXPECT_EQ(truth.certain[middle], 0);
   EXPECT_EQ(truth.certain[middle + 1], 1);
-  const Shown speck = brute_force(scene, glm::normalize(glm::dvec3{off, 0, -2}));
+  const VisibleSphere speck = brute_force(scene, glm::normalize(glm::dvec3{off, 0, -2}));
   EXPECT_EQ(speck.id, 1U);
   EXPECT_LE(difference(truth, middle, speck), truth.bound[middle]);
   model.margin_px = 0.03;

@@ -50,9 +50,9 @@ scene::ParticleSet shuffled(const scene::ParticleSet& set, std::uint64_t seed) {
   return result;
 }
 
-Shown brute_force(const scene::ParticleScene& scene, const glm::dvec3& direction) {
+VisibleSphere brute_force(const scene::ParticleScene& scene, const glm::dvec3& direction) {
   const scene::ParticleSet& set = *scene.particles;
-  Shown shown;
+  VisibleSphere shown;
   double nearest = shown.depth = std::numeric_limits<double>::infinity();
   for (std::size_t channel = 0; channel < 4; ++channel) {
     shown.rgba[channel] = scene.background[channel];

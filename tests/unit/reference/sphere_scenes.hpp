@@ -29,14 +29,15 @@ namespace triptych::reference {
 // Returns the same particles, with their ids and colours, in random order.
 [[nodiscard]] scene::ParticleSet shuffled(const scene::ParticleSet& set, std::uint64_t seed);
 
-struct Shown {
+struct VisibleSphere {
   std::uint32_t id = core::Image::no_particle;
   double depth = 0;
   std::array<double, 4> rgba{};
 };
 
 // Returns the sphere that is visible in this direction, found by testing every sphere.
-[[nodiscard]] Shown brute_force(const scene::ParticleScene& scene, const glm::dvec3& direction);
+[[nodiscard]] VisibleSphere brute_force(const scene::ParticleScene& scene,
+                                        const glm::dvec3& direction);
 
 // Returns the direction of the ray through a position, given in pixels from the upper left corner
 // of the image.

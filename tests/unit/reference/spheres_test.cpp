@@ -50,7 +50,7 @@ std::size_t expect_brute_force(const scene::ParticleScene& scene, const SphereEr
   for (std::size_t i = 0; i < truth.ids.size(); ++i) {
     const int x = static_cast<int>(i) % scene.width;
     const int y = static_cast<int>(i) / scene.width;
-    const Shown shown =
+    const VisibleSphere shown =
         brute_force(scene, scene.camera.ray_direction(x, y, scene.width, scene.height));
     const std::array<double, 4> rgba{truth.rgba[4 * i], truth.rgba[4 * i + 1],
                                      truth.rgba[4 * i + 2], truth.rgba[4 * i + 3]};
@@ -65,7 +65,7 @@ TEST(Spheres, EveryPixelMatchesALoopOverAllSpheres) {
   struct View {
     const char* what;
     scene::Camera camera;
-    bool sees_many;
+    bool many_visible;
   };
   const glm::dvec3 centre{0, 0, 0};
   const std::vector<View> views{
@@ -84,7 +84,7 @@ TEST(Spheres, EveryPixelMatchesALoopOverAllSpheres) {
       scene.camera = view.camera;
       for (const SphereErrorModel& model : {SphereErrorModel{}, some_sphere_model()}) {
         const std::size_t changes = expect_brute_force(scene, model, view.what);
-        if (view.sees_many) {
+        if (view.many_visible) {
           EXPECT_GT(changes, 100U) << view.what;
         }
       }

@@ -43,26 +43,26 @@ class Step {
     const bool rising = last_cell > first_cell;
     const int last = rising ? last_cell : last_cell + 1;
     const float per_cell = length / std::abs(to - from);
-    int here = rising ? first_cell + 1 : first_cell;
-    add_part_of_cell(first_cell, from, static_cast<float>(here),
-                     per_cell * std::abs(static_cast<float>(here) - from));
-    while (here != last) {
+    int cell = rising ? first_cell + 1 : first_cell;
+    add_part_of_cell(first_cell, from, static_cast<float>(cell),
+                     per_cell * std::abs(static_cast<float>(cell) - from));
+    while (cell != last) {
       const int direction = rising ? 1 : -1;
-      int taken = std::abs(last - here);
+      int count = std::abs(last - cell);
       const auto too_deep = [&] {
-        return taken > 1 && per_cell * pair(here, here + direction * taken)[0][0] > deepest_;
+        return count > 1 && per_cell * pair(cell, cell + direction * count)[0][0] > deepest_;
       };
       if (1 - gathered_[3] > TRI_LEAST_LEFT && too_deep()) {
-        const float share = deepest_ / (per_cell * pair(here, last)[0][0]);
-        taken = std::max(1, static_cast<int>(share * static_cast<float>(taken)));
-        while (too_deep()) taken /= 2;
+        const float share = deepest_ / (per_cell * pair(cell, last)[0][0]);
+        count = std::max(1, static_cast<int>(share * static_cast<float>(count)));
+        while (too_deep()) count /= 2;
       }
-      const int there = here + direction * taken;
-      const Texel* texels = pair(here, there);
+      const int next_cell = cell + direction * count;
+      const Texel* texels = pair(cell, next_cell);
       add_piece(per_cell * texels[0][0], {texels[0][1], texels[0][2], texels[0][3]},
                 {texels[1][0], texels[1][1], texels[1][2]},
                 {texels[2][0], texels[2][1], texels[2][2]});
-      here = there;
+      cell = next_cell;
     }
     add_part_of_cell(last_cell, static_cast<float>(last), to,
                      per_cell * std::abs(to - static_cast<float>(last)));
@@ -164,9 +164,9 @@ Found find(const scene::TransferFunction& function, double length, double error,
                                                        truth.opacity.nominal - truth.opacity.lo));
     const std::array light{r, g, b};
     for (std::size_t i = 0; i < 3; ++i) {
-      const double apart = std::abs(light[i] - a * truth.looked.colour[i]);
-      inside = inside && apart <= most * truth.looked.colour_error[i] + 2 * u;
-      const double wrong = light[i] - truth.opacity.nominal * truth.looked.colour[i];
+      const double apart = std::abs(light[i] - a * truth.lookup.colour[i]);
+      inside = inside && apart <= most * truth.lookup.colour_error[i] + 2 * u;
+      const double wrong = light[i] - truth.opacity.nominal * truth.lookup.colour[i];
       found.largest = std::max(found.largest, std::abs(wrong));
     }
     if (!inside) ++found.beyond;
@@ -228,7 +228,7 @@ TEST(PreintegratedStep, IsSplitIntoChunksIfItMayBeDeep) {
 // function of the share of the optical depth by a polynomial with three coefficients, and returns
 // the largest error of this approximation divided by the square of the tilt. The tilt is |tau_b −
 // tau_a|/(tau_a + tau_b), where tau_a and tau_b are the extinctions at both ends.
-double left_behind(double tau_a, double tau_b, const auto& tau) {
+double approximation_error(double tau_a, double tau_b, const auto& tau) {
   constexpr int parts = 4000;
   // Positions are denser at both ends.
   const auto place = [](int i) {
@@ -255,8 +255,8 @@ double left_behind(double tau_a, double tau_b, const auto& tau) {
   double most = 0;
   for (int i = 0; i < parts; ++i) {
     const auto& p = polynomials[static_cast<std::size_t>(i)];
-    const double there = 0.5 * (place(i) + place(i + 1));
-    most = std::max(most, std::abs(there - a[0] - a[1] * p[1] - a[2] * p[2]));
+    const double middle = 0.5 * (place(i) + place(i + 1));
+    most = std::max(most, std::abs(middle - a[0] - a[1] * p[1] - a[2] * p[2]));
   }
   const double tilt = std::abs(tau_b - tau_a) / (tau_a + tau_b);
   return most / (tilt * tilt);
@@ -269,12 +269,12 @@ TEST(PreintegratedStep, OneCellLeavesAQuarterOfItsTiltSquared) {
     for (const double b : alphas) {
       if (a == b) continue;
       const auto tau = [&](double s) { return std::min(-std::log1p(-(a + s * (b - a))), 8192.0); };
-      EXPECT_LE(left_behind(tau(0), tau(1), tau), 0.25) << a << ' ' << b;
+      EXPECT_LE(approximation_error(tau(0), tau(1), tau), 0.25) << a << ' ' << b;
     }
   }
   for (const double tilt : {0.05, 0.3, 0.7, 1.0, -0.05, -0.5, -1.0}) {
     const auto tau = [&](double s) { return 1 - tilt + 2 * tilt * s; };
-    EXPECT_LE(left_behind(tau(0), tau(1), tau), 0.25) << tilt;
+    EXPECT_LE(approximation_error(tau(0), tau(1), tau), 0.25) << tilt;
   }
 }
 
