@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-#include "backends/gl/only_compile.hpp"
+#include "backends/gl/compile_only.hpp"
 #include "core/error.hpp"
 
 namespace triptych::gl_backend {
@@ -65,7 +65,7 @@ void Api::collect_messages() {
   DebugMessageCallback(&Api::on_message, messages_.get());
 }
 
-void Api::only_compile() {
+void Api::set_compile_only() {
   executes_ = false;
   forbid_execution(*this);
 }

@@ -31,7 +31,7 @@ struct Api : GladGLContext {
   // Prepares the context for a device that only compiles, because its GPU is not present. After
   // this call, functions that would execute work on the device throw core::NotSupported, and no
   // data are uploaded. Objects are still created, so that programs can be linked.
-  void only_compile();
+  void set_compile_only();
   [[nodiscard]] bool executes() const { return executes_; }
 
   // While a program is linked, drivers send messages about the code that they generate for it. A
@@ -61,7 +61,8 @@ struct Api : GladGLContext {
   // were requested and the context has KHR_debug.
   bool labelled = false;
 
-  measure::MemoryLedger held;  // memory of the textures, renderbuffers and buffers of this context
+  // The memory of the textures, renderbuffers and buffers of this context.
+  measure::MemoryLedger memory_ledger;
 
   // Returns the result of glGetString, or an empty string if the result is null.
   [[nodiscard]] std::string text(GLenum name) const;

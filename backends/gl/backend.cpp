@@ -56,7 +56,7 @@ class Walk {
         opened.info.id = record::numbered_id(opened.info.id, ++count_[opened.info.id]);
         return opened;
       } catch (const core::Error& error) {
-        broken.push_back({candidate.what, error.what()});
+        broken.push_back({candidate.description, error.what()});
       }
     }
     return std::nullopt;
@@ -123,15 +123,15 @@ class GlBackend final : public measure::Backend {
     measure::Listing listing;
     for (const WindowSystem& system : window_systems) {
       try {
-        const Answer answer =
-            ask_in_child([&system] { return list_as_text(system); }, listing_limit);
-        if (answer.failure.empty()) {
-          add(answer.text, listing);
+        const ChildResult result =
+            run_in_child([&system] { return list_as_text(system); }, listing_limit);
+        if (result.failure.empty()) {
+          add(result.text, listing);
         } else {
           listing.broken.push_back(
               {.what = fmt::format("gl ({})", system.name),
                .reason = {},
-               .ended = record::Reason{.cause = record::Cause::error, .detail = answer.failure}});
+               .ended = record::Reason{.cause = record::Cause::error, .detail = result.failure}});
         }
       } catch (const std::exception& error) {  // also catches an answer that cannot be parsed
         listing.broken.push_back(
@@ -146,7 +146,7 @@ class GlBackend final : public measure::Backend {
   [[nodiscard]] std::unique_ptr<measure::Device> open(std::string_view device_id) const override {
     std::vector<measure::Broken> broken;
     for (const WindowSystem& system : window_systems) {
-      if (!may_have(system, device_id)) continue;
+      if (!may_provide(system, device_id)) continue;
       try {
         Walk walk(system);
         // A device that only compiles needs a debug context, because compilers report the generated
@@ -170,7 +170,7 @@ class GlBackend final : public measure::Backend {
  private:
   // Returns whether the device can belong to this window system. Other window systems are skipped
   // when a device is opened, because their libraries must not be loaded.
-  static bool may_have(const WindowSystem& system, std::string_view device_id) {
+  static bool may_provide(const WindowSystem& system, std::string_view device_id) {
     const bool osmesa = device_id.find("-osmesa") != std::string_view::npos;
     return osmesa == (system.suffix == "-osmesa");
   }

@@ -91,9 +91,9 @@ class BvhDrawing final : public Drawing {
              const technique::Arrangement& arrangement);
 
   [[nodiscard]] std::span<const Statistic> statistics() const override {
-    static constexpr std::array<Statistic, 1> told{
+    static constexpr std::array<Statistic, 1> wanted{
         {{GL_COMPUTE_SHADER_INVOCATIONS_ARB, "compute_invocations"}}};
-    return told;
+    return wanted;
   }
   void poison(const Api& gl) override {
     target_.poison(gl);
@@ -124,7 +124,7 @@ class BvhDrawing final : public Drawing {
            const Step& step) const;
   void sort(const Api& gl) const;
   void fit(const Api& gl, bool refit) const;
-  void send(const Api& gl, const Program& trace, GLuint stride, GLuint flags) const;
+  void trace_beams(const Api& gl, const Program& trace, GLuint stride, GLuint flags) const;
   void build(const Api& gl);
 
   technique::ParticleOptions options_;
@@ -136,7 +136,7 @@ class BvhDrawing final : public Drawing {
   ParticleData data_;
   HierarchyData tree_;
   Buffer pixels_;
-  std::array<Texture, 4> shown_;
+  std::array<Texture, 4> shown_texels_;
   ParticleTarget target_;
   std::vector<Program> build_;
   Program trace_;
@@ -163,10 +163,10 @@ BvhDrawing::BvhDrawing(const Api& gl, const measure::ParticleWork& work,
   const std::size_t count = std::max<std::size_t>(arrangement.count(), 1);
   const std::size_t colour_words =
       std::max<std::size_t>(arrangement.bytes(technique::Property::colour) / word, 1);
-  shown_ = {texels_of(gl, pixels_, traced_words(work.scene), GL_R32UI),
-            texels_of(gl, data_.spheres(), 4 * count, GL_RGBA32F),
-            texels_of(gl, data_.colours(), colour_words, GL_R32UI),
-            texels_of(gl, data_.ids(), count, GL_R32UI)};
+  shown_texels_ = {texels_of(gl, pixels_, traced_words(work.scene), GL_R32UI),
+                   texels_of(gl, data_.spheres(), 4 * count, GL_RGBA32F),
+                   texels_of(gl, data_.colours(), colour_words, GL_R32UI),
+                   texels_of(gl, data_.ids(), count, GL_R32UI)};
   std::vector<std::string> sources;
   for (std::size_t pass = 0; pass < build_passes.size(); ++pass) {
     build_.push_back(build_program(gl, constants_, static_cast<BuildPass>(pass), sources));
@@ -181,9 +181,9 @@ void BvhDrawing::bind_data(const Api& gl) const {
   data_.bind(gl);
   tree_.bind(gl);
   gl.BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding_traced_pixels, pixels_.get());
-  for (GLuint n = 0; n < shown_.size(); ++n) {
+  for (GLuint n = 0; n < shown_texels_.size(); ++n) {
     gl.ActiveTexture(GL_TEXTURE0 + first_shown_texels + n);
-    gl.BindTexture(GL_TEXTURE_BUFFER, shown_.at(n).get());
+    gl.BindTexture(GL_TEXTURE_BUFFER, shown_texels_.at(n).get());
   }
   gl.ActiveTexture(GL_TEXTURE0);
 }
@@ -222,7 +222,8 @@ void BvhDrawing::fit(const Api& gl, bool refit) const {
 }
 
 // Traces every stride-th beam.
-void BvhDrawing::send(const Api& gl, const Program& trace, GLuint stride, GLuint flags) const {
+void BvhDrawing::trace_beams(const Api& gl, const Program& trace, GLuint stride,
+                             GLuint flags) const {
   run(gl, trace, (grid_.beams() + stride - 1) / stride,
       {stride, grid_.columns, grid_.beams(), flags});
 }
@@ -233,10 +234,10 @@ void BvhDrawing::build(const Api& gl) {
   bind_data(gl);
   sort(gl);
   fit(gl, false);
-  send(gl, trace_, 1, leaves_beams);
+  trace_beams(gl, trace_, 1, leaves_beams);
   while (!tree_.all_ended(gl)) {
     ++rounds_;
-    send(gl, trace_, 1, continues_beams | leaves_beams);
+    trace_beams(gl, trace_, 1, continues_beams | leaves_beams);
   }
 }
 
@@ -263,12 +264,12 @@ void BvhDrawing::submit(const Api& gl, Purpose purpose) {
   }
   const bool counts = purpose == Purpose::counters;
   const Program& trace = counts ? counting_->trace : trace_;
-  const GLuint keeps = rounds_ > 1 ? leaves_beams : 0;
+  const GLuint keep_flag = rounds_ > 1 ? leaves_beams : 0;
   for (std::uint32_t round = 0; round < rounds_; ++round) {
-    send(gl, trace, 1, keeps | (round > 0 ? continues_beams : 0));
+    trace_beams(gl, trace, 1, keep_flag | (round > 0 ? continues_beams : 0));
   }
   if (options_.extra_work_stride > 0 && !counts && rounds_ == 1) {
-    send(gl, trace, static_cast<GLuint>(options_.extra_work_stride), 0);
+    trace_beams(gl, trace, static_cast<GLuint>(options_.extra_work_stride), 0);
   }
   gl.UseProgram(show_.get());
   gl.DrawArrays(GL_TRIANGLES, 0, 3);

@@ -59,9 +59,9 @@ std::vector<Stage> ComputePass::stages(const Api& gl, const Constants& constants
 }
 
 std::span<const Statistic> ComputePass::statistics() const {
-  static constexpr std::array<Statistic, 1> told{
+  static constexpr std::array<Statistic, 1> wanted{
       {{GL_COMPUTE_SHADER_INVOCATIONS_ARB, "compute_invocations"}}};
-  return told;
+  return wanted;
 }
 
 void ComputePass::dump(const measure::VolumeWork& work, const std::string& source) const {

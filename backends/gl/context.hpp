@@ -19,10 +19,10 @@ class Context {
   Context& operator=(const Context&) = delete;
   virtual ~Context() = default;
   [[nodiscard]] const Api& gl() const { return *gl_; }
-  // Calls Api::only_compile().
-  void only_compile() { gl_->only_compile(); }
+  // Calls Api::set_compile_only().
+  void set_compile_only() { gl_->set_compile_only(); }
   // Returns whether the window system reports that the context renders on the CPU.
-  [[nodiscard]] virtual bool computes_on_the_processor() const = 0;
+  [[nodiscard]] virtual bool computes_on_cpu() const = 0;
 
  protected:
   Context() = default;
@@ -57,7 +57,7 @@ class Current {
 
 // A device that a window system offers but that has not been opened yet.
 struct Candidate {
-  std::string what;  // shown to users, such as "EGL surfaceless"
+  std::string description;  // shown to users, such as "EGL surfaceless"
   // Throws core::NotSupported or core::ApiError.
   std::function<std::unique_ptr<Context>(bool debug)> open;
 };

@@ -93,9 +93,7 @@ class EglContext final : public Context {
   }
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
-  [[nodiscard]] bool computes_on_the_processor() const override {
-    return egl_.is_software(display_);
-  }
+  [[nodiscard]] bool computes_on_cpu() const override { return egl_.is_software(display_); }
   // Does not terminate the display, because all contexts of this process on the same display share
   // it.
   ~EglContext() override { egl_.destroy_context(display_, handle_); }
@@ -169,8 +167,8 @@ class EglContext final : public Context {
   EGLContext handle_ = EGL_NO_CONTEXT;
 };
 
-Candidate candidate(std::string what, EGLenum platform, EGLDeviceEXT device) {
-  return {std::move(what), [platform, device](bool debug) {
+Candidate candidate(std::string description, EGLenum platform, EGLDeviceEXT device) {
+  return {std::move(description), [platform, device](bool debug) {
             return std::make_unique<EglContext>(platform, device, debug);
           }};
 }

@@ -56,7 +56,7 @@ class OsmesaContext final : public Context {
   }
   OsmesaContext(const OsmesaContext&) = delete;
   OsmesaContext& operator=(const OsmesaContext&) = delete;
-  [[nodiscard]] bool computes_on_the_processor() const override { return true; }
+  [[nodiscard]] bool computes_on_cpu() const override { return true; }
   ~OsmesaContext() override { osmesa_.destroy(handle_); }
 
  private:

@@ -56,7 +56,7 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
     rasterizer_ = {context_->gl().sub_pixel_bits(), margin, largest_point(context_->gl()) - margin};
     most_texels_ = static_cast<std::uint64_t>(context_->gl().limit(GL_MAX_TEXTURE_BUFFER_SIZE));
     if (!info_.compiles_for.empty()) {
-      context_->only_compile();
+      context_->set_compile_only();
       return;
     }
     if (ComputePass::unsupported(context_->gl(), 1, 1)) return;
@@ -91,7 +91,7 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
       return fmt::format("technique {} draws only particles, but the scene contains a volume",
                          work.technique);
     auto reason = technique::option_reason(work.technique, particles->options,
-                                           technique::SpriteRasterizer::of_the_api);
+                                           technique::SpriteRasterizer::api);
     if (!reason) {
       reason = std::get<ParticleTechnique>(entry->technique).unsupported(gl, *particles);
     }
@@ -99,13 +99,14 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
   }
 
   [[nodiscard]] measure::VolumePath default_path(const measure::VolumeKind& volume) const override {
-    if (context_->computes_on_the_processor() && volume.may_be_packed() &&
+    if (context_->computes_on_cpu() && volume.may_be_packed() &&
         technique::packs_by_default(volume.size, volume.native, volume.filter_suffices,
                                     most_texels_)) {
       return {volume.native, technique::Sampler::packed};
     }
     const measure::VolumePath hardware{scene::VoxelFormat::f32, technique::Sampler::hardware};
-    if (filter_weight_error(hardware) < exact_filter && holds_whole(volume.size, hardware.voxel)) {
+    if (filter_weight_error(hardware) < exact_filter &&
+        can_store_whole(volume.size, hardware.voxel)) {
       return hardware;
     }
     return {volume.native, technique::Sampler::manual};
@@ -123,7 +124,9 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
     return rasterizer_;
   }
 
-  [[nodiscard]] record::Counts memory() const override { return context_->gl().held.counts(); }
+  [[nodiscard]] record::Counts memory() const override {
+    return context_->gl().memory_ledger.counts();
+  }
 
   [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes() override {
     return gl_backend::feature_probes(*context_);
@@ -169,9 +172,10 @@ class GlDevice final : public measure::Device, public measure::ProbesFeatures {
 
   // Returns whether the volume fits into one texture. Larger volumes are drawn in parts, which is
   // impossible with hardware samplers.
-  [[nodiscard]] bool holds_whole(const std::array<int, 3>& size, scene::VoxelFormat format) const {
+  [[nodiscard]] bool can_store_whole(const std::array<int, 3>& size,
+                                     scene::VoxelFormat format) const {
     const Current current(*context_);
-    return gl_backend::holds_whole(context_->gl(), size, format);
+    return gl_backend::can_store_whole(context_->gl(), size, format);
   }
 
   record::Device info_;

@@ -31,7 +31,7 @@ void set_uniform(const Api& gl, const Program& program, const char* name, GLuint
 }
 
 // Allocates a buffer of this many bytes. Throws NotSupported if the driver cannot allocate it.
-Buffer room(const Api& gl, GLenum target, std::uint64_t bytes) {
+Buffer allocate_buffer(const Api& gl, GLenum target, std::uint64_t bytes) {
   Buffer buffer(gl);
   gl.BindBuffer(target, buffer.get());
   gl.BufferData(target, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_COPY);
@@ -82,7 +82,7 @@ ProbedFeature probe_offset(const Api& gl, std::uint64_t offset) {
   constexpr std::size_t count = 65536;
   constexpr std::uint64_t bytes = count * sizeof(GLuint);
   const Program program = kernel(gl, "features_write.comp");
-  const Buffer buffer = room(gl, GL_SHADER_STORAGE_BUFFER, offset + bytes);
+  const Buffer buffer = allocate_buffer(gl, GL_SHADER_STORAGE_BUFFER, offset + bytes);
   const std::array<std::array<GLuint, 2>, 2> lines{{{7, 3}, {11, 5}}};
   gl.UseProgram(program.get());
   for (std::size_t n = 0; n < lines.size(); ++n) {
@@ -142,7 +142,8 @@ Texture levels_texture(const Api& gl, GLint mode) {
   return texture;
 }
 
-std::uint64_t right_in_level(const Api& gl, const Program& program, GLint mode, GLuint level) {
+std::uint64_t correct_samples_in_level(const Api& gl, const Program& program, GLint mode,
+                                       GLuint level) {
   const GLuint size = image_edge >> level;
   const GLuint side = 4 * size;
   const std::size_t count = std::size_t{side} * side;
@@ -167,7 +168,7 @@ ProbedFeature probe_addressing(const Api& gl, GLint mode, GLuint levels) {
   std::uint64_t right = 0;
   std::uint64_t expected = 0;
   for (GLuint level = 0; level < levels; ++level) {
-    right += right_in_level(gl, program, mode, level);
+    right += correct_samples_in_level(gl, program, mode, level);
     expected += std::uint64_t{16} * (image_edge >> level) * (image_edge >> level);
   }
   return judged_feature(right, expected,

@@ -29,8 +29,8 @@ Renderbuffer pixels(const Api& gl, GLenum format, int width, int height) {
   gl.BindRenderbuffer(GL_RENDERBUFFER, buffer.get());
   gl.RenderbufferStorage(GL_RENDERBUFFER, format, width, height);
   gl.check("glRenderbufferStorage");
-  buffer.holds(gl.held.image(bytes_of(format) * static_cast<std::uint64_t>(width) *
-                             static_cast<std::uint64_t>(height)));
+  buffer.record_memory(gl.memory_ledger.image(bytes_of(format) * static_cast<std::uint64_t>(width) *
+                                              static_cast<std::uint64_t>(height)));
   return buffer;
 }
 

@@ -17,7 +17,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-constexpr int exit_answered = 0;
+constexpr int exit_success = 0;
 constexpr int exit_exception = 1;
 
 bool write_all(int fd, std::string_view text) {
@@ -32,15 +32,15 @@ bool write_all(int fd, std::string_view text) {
 
 // Runs in the child process, and ends it with _exit, because the child must not run the parent's
 // exit handlers.
-[[noreturn]] void answer(const std::function<std::string()>& ask, int fd) {
+[[noreturn]] void run_task(const std::function<std::string()>& task, int fd) {
   // The parent reports a crash of the child. Inherited signal handlers would report it a second
   // time.
   for (const int fatal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) std::signal(fatal, SIG_DFL);
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   try {
-    const std::string text = ask();
-    _exit(write_all(fd, text) ? exit_answered : exit_exception);
+    const std::string text = task();
+    _exit(write_all(fd, text) ? exit_success : exit_exception);
   } catch (const std::exception& error) {
     write_all(fd, error.what());
   } catch (...) {
@@ -58,9 +58,9 @@ bool read_all(int fd, std::chrono::milliseconds limit, std::string& text) {
         end - std::chrono::steady_clock::now());
     if (left.count() <= 0) return false;
     pollfd ready{fd, POLLIN, 0};
-    const int answered = poll(&ready, 1, static_cast<int>(left.count()));
-    if (answered < 0 && errno != EINTR) return false;
-    if (answered <= 0) continue;
+    const int ready_count = poll(&ready, 1, static_cast<int>(left.count()));
+    if (ready_count < 0 && errno != EINTR) return false;
+    if (ready_count <= 0) continue;
     const ssize_t size = read(fd, part.data(), part.size());
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) return size == 0;
@@ -68,20 +68,21 @@ bool read_all(int fd, std::chrono::milliseconds limit, std::string& text) {
   }
 }
 
-Answer conclude(pid_t child, bool in_time, std::string text, std::chrono::milliseconds limit) {
+ChildResult conclude(pid_t child, bool in_time, std::string text, std::chrono::milliseconds limit) {
   if (!in_time) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (!in_time) return {{}, fmt::format("no response within {} ms", limit.count())};
   if (WIFSIGNALED(status)) return {{}, fmt::format("crashed: {}", strsignal(WTERMSIG(status)))};
-  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_answered) return {std::move(text), {}};
+  if (WIFEXITED(status) && WEXITSTATUS(status) == exit_success) return {std::move(text), {}};
   return {{}, text.empty() ? "exited without responding" : std::move(text)};
 }
 
 }  // namespace
 
-Answer ask_in_child(const std::function<std::string()>& ask, std::chrono::milliseconds limit) {
+ChildResult run_in_child(const std::function<std::string()>& task,
+                         std::chrono::milliseconds limit) {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) {
     return {{}, fmt::format("cannot create a pipe: {}", std::strerror(errno))};
@@ -89,7 +90,7 @@ Answer ask_in_child(const std::function<std::string()>& ask, std::chrono::millis
   const pid_t child = fork();
   if (child == 0) {
     close(ends[0]);
-    answer(ask, ends[1]);
+    run_task(task, ends[1]);
   }
   const int fork_error = errno;
   close(ends[1]);

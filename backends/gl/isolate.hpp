@@ -5,16 +5,16 @@
 
 namespace triptych::gl_backend {
 
-struct Answer {
-  std::string text;  // the result of `ask`
+struct ChildResult {
+  std::string text;  // the result of `task`
   std::string
       failure;  // why there is no result, such as "crashed: Segmentation fault"; otherwise empty
 };
 
-// Runs `ask` in a child process, so that a library that `ask` loads can neither crash the caller
+// Runs `task` in a child process, so that a library that `task` loads can neither crash the caller
 // nor stay loaded in it. Kills the child if it has not finished after `limit`. A child that
 // crashes, hangs or returns garbage never makes this function throw.
-[[nodiscard]] Answer ask_in_child(const std::function<std::string()>& ask,
-                                  std::chrono::milliseconds limit);
+[[nodiscard]] ChildResult run_in_child(const std::function<std::string()>& task,
+                                       std::chrono::milliseconds limit);
 
 }  // namespace triptych::gl_backend

@@ -17,12 +17,12 @@ class Object {
   Object() = default;
   explicit Object(const Api& gl) : gl_(&gl) { (gl.*Generate)(1, &name_); }
   Object(Object&& other) noexcept
-      : gl_(other.gl_), name_(other.release()), held_(std::move(other.held_)) {}
+      : gl_(other.gl_), name_(other.release()), ledger_entry_(std::move(other.ledger_entry_)) {}
   Object& operator=(Object&& other) noexcept {
     Object moved(std::move(other));
     std::swap(gl_, moved.gl_);
     std::swap(name_, moved.name_);
-    std::swap(held_, moved.held_);
+    std::swap(ledger_entry_, moved.ledger_entry_);
     return *this;
   }
   Object(const Object&) = delete;
@@ -34,12 +34,12 @@ class Object {
   [[nodiscard]] GLuint release() noexcept { return std::exchange(name_, 0U); }
 
   // Records the memory that was allocated for the object.
-  void holds(measure::MemoryLedger::Entry memory) { held_ = std::move(memory); }
+  void record_memory(measure::MemoryLedger::Entry memory) { ledger_entry_ = std::move(memory); }
 
  private:
   const Api* gl_ = nullptr;
   GLuint name_ = 0;
-  measure::MemoryLedger::Entry held_;
+  measure::MemoryLedger::Entry ledger_entry_;
 };
 
 using Buffer = Object<&GladGLContext::GenBuffers, &GladGLContext::DeleteBuffers>;
@@ -51,20 +51,20 @@ using Query = Object<&GladGLContext::GenQueries, &GladGLContext::DeleteQueries>;
 
 // A shader, program or fence: an object with its own creation call that is deleted individually.
 template <class Name, auto Delete>
-class Made {
+class OwnedHandle {
  public:
-  Made() = default;
-  Made(const Api& gl, Name name) : gl_(&gl), name_(name) {}
-  Made(Made&& other) noexcept : gl_(other.gl_), name_(other.release()) {}
-  Made& operator=(Made&& other) noexcept {
-    Made moved(std::move(other));
+  OwnedHandle() = default;
+  OwnedHandle(const Api& gl, Name name) : gl_(&gl), name_(name) {}
+  OwnedHandle(OwnedHandle&& other) noexcept : gl_(other.gl_), name_(other.release()) {}
+  OwnedHandle& operator=(OwnedHandle&& other) noexcept {
+    OwnedHandle moved(std::move(other));
     std::swap(gl_, moved.gl_);
     std::swap(name_, moved.name_);
     return *this;
   }
-  Made(const Made&) = delete;
-  Made& operator=(const Made&) = delete;
-  ~Made() {
+  OwnedHandle(const OwnedHandle&) = delete;
+  OwnedHandle& operator=(const OwnedHandle&) = delete;
+  ~OwnedHandle() {
     if (name_ != Name{}) (gl_->*Delete)(name_);
   }
   [[nodiscard]] Name get() const noexcept { return name_; }
@@ -75,8 +75,8 @@ class Made {
   Name name_{};
 };
 
-using Shader = Made<GLuint, &GladGLContext::DeleteShader>;
-using Program = Made<GLuint, &GladGLContext::DeleteProgram>;
-using Fence = Made<GLsync, &GladGLContext::DeleteSync>;
+using Shader = OwnedHandle<GLuint, &GladGLContext::DeleteShader>;
+using Program = OwnedHandle<GLuint, &GladGLContext::DeleteProgram>;
+using Fence = OwnedHandle<GLsync, &GladGLContext::DeleteSync>;
 
 }  // namespace triptych::gl_backend

@@ -31,7 +31,7 @@ Buffer filled_buffer(const Api& gl, std::size_t size, const Fill& fill) {
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
   const std::size_t whole = std::max<std::size_t>(size, 16);
   gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(whole), nullptr, GL_STATIC_DRAW);
-  buffer.holds(gl.held.buffer(whole));
+  buffer.record_memory(gl.memory_ledger.buffer(whole));
   std::vector<std::byte> memory(std::min(size, most_at_once));
   for (std::size_t begin = 0; begin < size; begin += memory.size()) {
     const std::span piece = std::span(memory).first(std::min(memory.size(), size - begin));
@@ -81,8 +81,8 @@ ParticleData::ParticleData(const Api& gl, const measure::ParticleWork& work,
   describe_vertices(gl, work.scene.particles->colour);
 }
 
-void ParticleData::look_from(const Api& gl, const measure::ParticleWork& work,
-                             const technique::Arrangement& arrangement) const {
+void ParticleData::upload_camera(const Api& gl, const measure::ParticleWork& work,
+                                 const technique::Arrangement& arrangement) const {
   const technique::ParticleParameters parameters =
       technique::particle_parameters(work.scene, work.options, arrangement);
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, parameters_.get());

@@ -24,8 +24,8 @@ class ParticleData {
   [[nodiscard]] const Buffer& ids() const noexcept { return ids_; }
 
   // Uses the camera of this scene for all later frames.
-  void look_from(const Api& gl, const measure::ParticleWork& work,
-                 const technique::Arrangement& arrangement) const;
+  void upload_camera(const Api& gl, const measure::ParticleWork& work,
+                     const technique::Arrangement& arrangement) const;
 
  private:
   void describe_vertices(const Api& gl, scene::ColourKind colour);

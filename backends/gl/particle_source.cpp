@@ -43,16 +43,16 @@ ParticleConstants particle_constants(const measure::ParticleWork& work) {
 
 std::vector<Stage> particle_stages(const Api& gl, const ParticleConstants& constants,
                                    const std::vector<ParticleStage>& stages) {
-  std::vector<Stage> made;
+  std::vector<Stage> sources;
   for (const ParticleStage& stage : stages) {
     std::vector<std::string_view> files{"volume_math.h", "sphere_math.h",
                                         "particles/parameters.glsl", "camera_space.glsl",
                                         "colour.glsl"};
     files.insert(files.end(), stage.files.begin(), stage.files.end());
-    made.push_back(
+    sources.push_back(
         shared_stage(gl, stage.type, constant_lines(gl, constants) + stage.defines, files));
   }
-  return made;
+  return sources;
 }
 
 }  // namespace triptych::gl_backend

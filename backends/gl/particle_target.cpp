@@ -23,8 +23,8 @@ ParticleTarget::ParticleTarget(const Api& gl, int width, int height, ParticleFau
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   gl.check("glTexImage2D");
-  depth_.holds(gl.held.image(sizeof(float) * static_cast<std::uint64_t>(width) *
-                             static_cast<std::uint64_t>(height)));
+  depth_.record_memory(gl.memory_ledger.image(sizeof(float) * static_cast<std::uint64_t>(width) *
+                                              static_cast<std::uint64_t>(height)));
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour_.get());
   gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT1, GL_RENDERBUFFER, ids_.get());

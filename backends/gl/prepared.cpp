@@ -75,8 +75,8 @@ class DrawingPrepared final : public measure::Prepared, public measure::TracesPi
  private:
   // All objects that exist on the device.
   struct Owned {
-    Owned(const Api& gl, Stamps stamps, std::unique_ptr<Drawing> its_drawing)
-        : drawing(std::move(its_drawing)),
+    Owned(const Api& gl, Stamps stamps, std::unique_ptr<Drawing> owned_drawing)
+        : drawing(std::move(owned_drawing)),
           stopwatch(gl, stamps),
           statistics(gl, drawing->statistics()) {}
     std::unique_ptr<Drawing> drawing;

@@ -46,7 +46,7 @@ class FragmentPass final : public Pass {
   }
 
   [[nodiscard]] std::span<const Statistic> statistics() const override {
-    static constexpr std::array<Statistic, 6> told{{
+    static constexpr std::array<Statistic, 6> wanted{{
         {GL_VERTICES_SUBMITTED_ARB, "input_assembly_vertices"},
         {GL_PRIMITIVES_SUBMITTED_ARB, "input_assembly_primitives"},
         {GL_VERTEX_SHADER_INVOCATIONS_ARB, "vertex_invocations"},
@@ -54,7 +54,7 @@ class FragmentPass final : public Pass {
         {GL_CLIPPING_OUTPUT_PRIMITIVES_ARB, "clipping_primitives"},
         {GL_FRAGMENT_SHADER_INVOCATIONS_ARB, "fragment_invocations"},
     }};
-    return told;
+    return wanted;
   }
 
   void poison(const Api& gl) override {

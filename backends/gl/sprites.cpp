@@ -20,7 +20,7 @@ using measure::Purpose;
 using technique::Culling;
 
 std::vector<Statistic> statistics_of(const Sprites& sprites, Culling culling) {
-  std::vector<Statistic> told{
+  std::vector<Statistic> wanted{
       {GL_VERTICES_SUBMITTED_ARB, "input_assembly_vertices"},
       {GL_PRIMITIVES_SUBMITTED_ARB, "input_assembly_primitives"},
       {GL_VERTEX_SHADER_INVOCATIONS_ARB, "vertex_invocations"},
@@ -30,18 +30,18 @@ std::vector<Statistic> statistics_of(const Sprites& sprites, Culling culling) {
   };
   for (const ParticleStage& stage : sprites.front().stages) {
     if (stage.type == GL_GEOMETRY_SHADER) {
-      told.push_back({GL_GEOMETRY_SHADER_INVOCATIONS, "geometry_invocations"});
-      told.push_back({GL_GEOMETRY_SHADER_PRIMITIVES_EMITTED_ARB, "geometry_primitives"});
+      wanted.push_back({GL_GEOMETRY_SHADER_INVOCATIONS, "geometry_invocations"});
+      wanted.push_back({GL_GEOMETRY_SHADER_PRIMITIVES_EMITTED_ARB, "geometry_primitives"});
     } else if (stage.type == GL_TESS_CONTROL_SHADER) {
-      told.push_back({GL_TESS_CONTROL_SHADER_PATCHES_ARB, "tessellation_control_patches"});
-      told.push_back(
+      wanted.push_back({GL_TESS_CONTROL_SHADER_PATCHES_ARB, "tessellation_control_patches"});
+      wanted.push_back(
           {GL_TESS_EVALUATION_SHADER_INVOCATIONS_ARB, "tessellation_evaluation_invocations"});
     }
   }
   if (culling != Culling::none) {
-    told.push_back({GL_COMPUTE_SHADER_INVOCATIONS_ARB, "compute_invocations"});
+    wanted.push_back({GL_COMPUTE_SHADER_INVOCATIONS_ARB, "compute_invocations"});
   }
-  return told;
+  return wanted;
 }
 
 // The programs of all draws, either for timing or for counting.
@@ -165,10 +165,10 @@ class SpriteDrawing final : public Drawing {
   // culling in the first measured frame uses the cells that were visible in the frame before it.
   void draw_before(const Api& gl, const measure::ParticleWork& work,
                    const technique::Arrangement& arrangement) {
-    if (work.camera_before) data_.look_from(gl, work.before(), arrangement);
+    if (work.camera_before) data_.upload_camera(gl, work.before(), arrangement);
     prepare_state(gl);
     submit(gl, Purpose::statistics);
-    if (work.camera_before) data_.look_from(gl, work, arrangement);
+    if (work.camera_before) data_.upload_camera(gl, work, arrangement);
   }
 
   // Draws two frames, after which the set of hidden cells no longer changes. The first frame after
@@ -195,18 +195,19 @@ class SpriteDrawing final : public Drawing {
       return link(gl, stages);
     };
     for (const SpriteDraw& draw : sprites_) {
-      Programs::Draw made;
+      Programs::Draw draw_programs;
       // Only the culling passes of the first draw are counted, because the culling passes of the
       // other draws test the same cells.
       ParticleConstants culling = constants;
       culling.count = constants.count && programs.draws.empty();
       for (const int pass : passes_of(options_.culling)) {
-        made.cull[pass == 2 ? 1 : 0] = program({cull_stage(draw.instanced, pass)}, culling);
+        draw_programs.cull[pass == 2 ? 1 : 0] =
+            program({cull_stage(draw.instanced, pass)}, culling);
       }
       std::vector<ParticleStage> stages = draw.stages;
       stages.push_back({GL_FRAGMENT_SHADER, {"sphere.frag.glsl"}, {}});
-      made.sprites = program(stages, constants);
-      programs.draws.push_back(std::move(made));
+      draw_programs.sprites = program(stages, constants);
+      programs.draws.push_back(std::move(draw_programs));
     }
     return programs;
   }

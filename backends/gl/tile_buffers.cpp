@@ -76,8 +76,8 @@ Texture pair_texture(const Api& gl, int width, int height, bool any) {
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
   gl.check("glTexImage2D");
-  texture.holds(gl.held.image(4 * word * static_cast<std::uint64_t>(columns) *
-                              static_cast<std::uint64_t>(rows)));
+  texture.record_memory(gl.memory_ledger.image(4 * word * static_cast<std::uint64_t>(columns) *
+                                               static_cast<std::uint64_t>(rows)));
   return texture;
 }
 
@@ -138,20 +138,20 @@ TileBuffers::TileBuffers(const Api& gl, const scene::ParticleScene& scene,
     thinned_ = cell_buffer(gl, thinned(arrangement.cells, extra_work_stride));
   }
   const std::size_t entry_bytes = word * std::max<std::size_t>(times * rounds.entries, 4);
-  see(gl, binding_camera_texels, camera_spheres_.get(), 4 * word * count, GL_RGBA32F);
-  see(gl, binding_tile_texels, tile_states_.get(), tile_bytes(), GL_RGBA32UI);
-  see(gl, binding_entry_texels, entries_.get(), entry_bytes, GL_R32UI);
-  see(gl, binding_pixel_texels, pixels_.get(), planes * pixel_bytes(), GL_R32UI);
-  see(gl, binding_sphere_texels, data.spheres().get(), 4 * word * count, GL_RGBA32F);
-  see(gl, binding_colour_texels, data.colours().get(),
-      colour_words(scene.particles->colour) * word * count, GL_R32UI);
-  see(gl, binding_id_texels, data.ids().get(), word * count, GL_R32UI);
+  add_texel_view(gl, binding_camera_texels, camera_spheres_.get(), 4 * word * count, GL_RGBA32F);
+  add_texel_view(gl, binding_tile_texels, tile_states_.get(), tile_bytes(), GL_RGBA32UI);
+  add_texel_view(gl, binding_entry_texels, entries_.get(), entry_bytes, GL_R32UI);
+  add_texel_view(gl, binding_pixel_texels, pixels_.get(), planes * pixel_bytes(), GL_R32UI);
+  add_texel_view(gl, binding_sphere_texels, data.spheres().get(), 4 * word * count, GL_RGBA32F);
+  add_texel_view(gl, binding_colour_texels, data.colours().get(),
+                 colour_words(scene.particles->colour) * word * count, GL_R32UI);
+  add_texel_view(gl, binding_id_texels, data.ids().get(), word * count, GL_R32UI);
   gl.check("glTexBuffer");
   clear_pixels(gl);
 }
 
-void TileBuffers::see(const Api& gl, GLuint binding, GLuint buffer, std::size_t bytes,
-                      GLenum format) {
+void TileBuffers::add_texel_view(const Api& gl, GLuint binding, GLuint buffer, std::size_t bytes,
+                                 GLenum format) {
   const std::size_t texels = bytes / (format == GL_R32UI ? word : 4 * word);
   const auto most = static_cast<std::size_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
   if (texels > most) {

@@ -62,7 +62,8 @@ class TileBuffers {
     Texture texture;
   };
   void clear_pixels(const Api& gl) const;
-  void see(const Api& gl, GLuint binding, GLuint buffer, std::size_t bytes, GLenum format);
+  void add_texel_view(const Api& gl, GLuint binding, GLuint buffer, std::size_t bytes,
+                      GLenum format);
   [[nodiscard]] std::size_t pixel_bytes() const;
   [[nodiscard]] std::size_t tile_bytes() const;
 

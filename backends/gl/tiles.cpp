@@ -27,7 +27,7 @@ constexpr std::array<std::string_view, 7> passes{"cells",   "bin",    "place", "
 enum TilePass : std::size_t { cells, bin, place, fill, resolve, settle, index };
 
 struct Programs {
-  std::array<Program, passes.size()> of;
+  std::array<Program, passes.size()> by_pass;
   Program show;
   std::vector<std::string> sources;
 };
@@ -54,7 +54,7 @@ Programs make_programs(const Api& gl, const ParticleConstants& constants, Cullin
     if (i == cells || i == bin) files.emplace_back("cells.glsl");
     const std::string main_file = fmt::format("tiles_{}.comp.glsl", passes[i]);
     files.insert(files.end(), {"keys.glsl", "tile_grid.glsl", "tiles.glsl", main_file});
-    programs.of[i] =
+    programs.by_pass[i] =
         program({{GL_COMPUTE_SHADER, files,
                   defines + "#define TRI_ROUND round_cells\nuniform uvec2 round_cells;\n"}},
                 constants);
@@ -91,9 +91,9 @@ class TilesDrawing final : public Drawing {
   }
 
   [[nodiscard]] std::span<const Statistic> statistics() const override {
-    static constexpr std::array<Statistic, 1> told{
+    static constexpr std::array<Statistic, 1> wanted{
         {{GL_COMPUTE_SHADER_INVOCATIONS_ARB, "compute_invocations"}}};
-    return told;
+    return wanted;
   }
 
   void poison(const Api& gl) override {
@@ -161,7 +161,7 @@ class TilesDrawing final : public Drawing {
 
   static void run(const Api& gl, const Programs& programs, TilePass pass, GLuint groups) {
     const Label label(gl, passes[pass]);
-    gl.UseProgram(programs.of[pass].get());
+    gl.UseProgram(programs.by_pass[pass].get());
     gl.DispatchCompute(groups, 1, 1);
     finish(gl);
   }
@@ -169,7 +169,7 @@ class TilesDrawing final : public Drawing {
   static void run_on(const Api& gl, const Programs& programs, TilePass pass,
                      const technique::TileRound& round, GLuint groups) {
     const Label label(gl, passes[pass]);
-    const GLuint program = programs.of[pass].get();
+    const GLuint program = programs.by_pass[pass].get();
     gl.UseProgram(program);
     gl.Uniform2ui(gl.GetUniformLocation(program, "round_cells"), round.first, round.cells);
     gl.DispatchCompute(groups, 1, 1);
@@ -209,7 +209,7 @@ class TilesDrawing final : public Drawing {
     run(gl, programs, place, buffers_.groups_for_tiles());
     if (round.entries > 0) run(gl, programs, fill, technique::list_groups(particles_));
     if (rounds_.at_once) return;
-    gl.UseProgram(programs.of[resolve].get());
+    gl.UseProgram(programs.by_pass[resolve].get());
     buffers_.dispatch_listed(gl);
     finish(gl);
   }

@@ -40,25 +40,25 @@ Stopwatch::Stopwatch(const Api& gl, Stamps stamps)
     : gl_(&gl), stamps_(stamps), begin_(gl), end_(gl) {
   GLint bits = 0;
   gl.GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
-  offered_ = bits > 0;
+  has_clock_ = bits > 0;
   gl.check("glGetQueryiv");
 }
 
 void Stopwatch::start() {
   started_ns_ = now_ns();
-  if (!offered_) return;
+  if (!has_clock_) return;
   gl_->QueryCounter(begin_.get(), GL_TIMESTAMP);
   if (stamps_ == Stamps::finished) gl_->Finish();
 }
 
 Elapsed Stopwatch::stop() {
-  if (offered_) {
+  if (has_clock_) {
     if (stamps_ == Stamps::finished) gl_->Finish();
     gl_->QueryCounter(end_.get(), GL_TIMESTAMP);
   }
   wait_for_device(*gl_);
   Elapsed elapsed{now_ns() - started_ns_, std::nullopt};
-  if (offered_) {
+  if (has_clock_) {
     const GLuint64 begin = result_of(*gl_, begin_);
     const GLuint64 end = result_of(*gl_, end_);
     if (end >= begin) elapsed.device_ns = static_cast<double>(end - begin);
@@ -72,20 +72,20 @@ Statistics::Statistics(const Api& gl, std::span<const Statistic> wanted) : gl_(&
   for (const Statistic& each : wanted) {
     GLint bits = 0;
     gl.GetQueryiv(each.target, GL_QUERY_COUNTER_BITS, &bits);
-    if (bits > 0) asked_.push_back({each, Query(gl)});
+    if (bits > 0) queries_.push_back({each, Query(gl)});
   }
   gl.check("glGetQueryiv");
 }
 
 void Statistics::begin() {
-  for (const Asked& each : asked_) gl_->BeginQuery(each.what.target, each.query.get());
+  for (const ActiveQuery& each : queries_) gl_->BeginQuery(each.statistic.target, each.query.get());
 }
 
 record::Counts Statistics::end() {
-  for (const Asked& each : asked_) gl_->EndQuery(each.what.target);
+  for (const ActiveQuery& each : queries_) gl_->EndQuery(each.statistic.target);
   record::Counts counts;
-  for (const Asked& each : asked_) {
-    counts.emplace(std::string(each.what.name), result_of(*gl_, each.query));
+  for (const ActiveQuery& each : queries_) {
+    counts.emplace(std::string(each.statistic.name), result_of(*gl_, each.query));
   }
   gl_->check("glEndQuery");
   return counts;

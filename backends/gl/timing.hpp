@@ -43,7 +43,7 @@ class Stopwatch {
 
   const Api* gl_;
   Stamps stamps_;
-  bool offered_ = false;  // whether the device has a clock
+  bool has_clock_ = false;  // whether the device has a clock
   Query begin_;
   Query end_;
   double started_ns_ = 0;
@@ -72,15 +72,15 @@ class Statistics {
   }
 
  private:
-  struct Asked {
-    Statistic what;
+  struct ActiveQuery {
+    Statistic statistic;
     Query query;
   };
   void begin();
   [[nodiscard]] record::Counts end();
 
   const Api* gl_;
-  std::vector<Asked> asked_;
+  std::vector<ActiveQuery> queries_;
 };
 
 }  // namespace triptych::gl_backend

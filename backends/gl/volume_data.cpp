@@ -26,7 +26,7 @@ constexpr GLuint binding_bricks = 3;
 constexpr GLuint binding_quadrature = 6;
 constexpr GLuint binding_pauses = 7;
 
-void use_texels_as_they_are(const Api& gl, GLenum target, GLint filter) {
+void set_unmipped_clamped(const Api& gl, GLenum target, GLint filter) {
   gl.TexParameteri(target, GL_TEXTURE_MIN_FILTER, filter);
   gl.TexParameteri(target, GL_TEXTURE_MAG_FILTER, filter);
   gl.TexParameteri(target, GL_TEXTURE_MAX_LEVEL, 0);
@@ -38,11 +38,11 @@ void use_texels_as_they_are(const Api& gl, GLenum target, GLint filter) {
 Texture transfer_texture(const Api& gl, const scene::TransferFunction& function) {
   Texture texture(gl);
   gl.BindTexture(GL_TEXTURE_1D, texture.get());
-  use_texels_as_they_are(gl, GL_TEXTURE_1D, GL_NEAREST);
+  set_unmipped_clamped(gl, GL_TEXTURE_1D, GL_NEAREST);
   gl.TexImage1D(GL_TEXTURE_1D, 0, GL_RGBA32F, static_cast<GLsizei>(function.entries.size()), 0,
                 GL_RGBA, GL_FLOAT, function.entries.data());
   gl.check("glTexImage1D");
-  texture.holds(gl.held.image(std::as_bytes(std::span(function.entries)).size()));
+  texture.record_memory(gl.memory_ledger.image(std::as_bytes(std::span(function.entries)).size()));
   return texture;
 }
 
@@ -52,7 +52,7 @@ Texture transfer_texture(const Api& gl, const scene::TransferFunction& function)
 Buffer cell_buffer(const Api& gl, const measure::VolumeWork& work,
                    const std::vector<technique::Part>& parts) {
   const scene::VoxelGrid& grid = *work.scene.grid;
-  const std::size_t size = technique::layers_of(work.scene, work.options).room_for(parts);
+  const std::size_t size = technique::layers_of(work.scene, work.options).largest_part_bytes(parts);
   Buffer buffer = device_buffer(gl, size);
   if (!parts.empty()) return buffer;
   fill_buffer(gl, buffer, size, [&](std::size_t begin, std::span<std::byte> out) {
@@ -66,13 +66,13 @@ Texture texture_of(const Api& gl, const scene::VoxelGrid& grid, bool linear, int
   const TexelFormat format = texel_format(grid.format);
   Texture texture(gl);
   gl.BindTexture(GL_TEXTURE_3D, texture.get());
-  use_texels_as_they_are(gl, GL_TEXTURE_3D, linear ? GL_LINEAR : GL_NEAREST);
+  set_unmipped_clamped(gl, GL_TEXTURE_3D, linear ? GL_LINEAR : GL_NEAREST);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl.TexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(format.internal), grid.size[0], grid.size[1],
                 slices, 0, GL_RED, format.type, voxels);
   gl.check("glTexImage3D");
-  texture.holds(gl.held.image(technique::slice_layers(grid.size, grid.format).bytes *
-                              static_cast<std::uint64_t>(slices)));
+  texture.record_memory(gl.memory_ledger.image(
+      technique::slice_layers(grid.size, grid.format).bytes * static_cast<std::uint64_t>(slices)));
   return texture;
 }
 
@@ -122,7 +122,7 @@ Buffer constant_buffer(const Api& gl, std::span<const std::byte> bytes) {
   gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes.size()), bytes.data(),
                 GL_STATIC_DRAW);
   gl.check("glBufferData");
-  buffer.holds(gl.held.buffer(bytes.size()));
+  buffer.record_memory(gl.memory_ledger.buffer(bytes.size()));
   return buffer;
 }
 
@@ -131,7 +131,7 @@ Buffer device_buffer(const Api& gl, std::size_t size) {
   gl.BindBuffer(GL_COPY_WRITE_BUFFER, buffer.get());
   gl.BufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(size), nullptr, GL_DYNAMIC_COPY);
   gl.check("glBufferData");
-  buffer.holds(gl.held.buffer(size));
+  buffer.record_memory(gl.memory_ledger.buffer(size));
   return buffer;
 }
 
@@ -184,15 +184,16 @@ VolumeData::VolumeData(const Api& gl, const measure::VolumeWork& work,
     pauses_ = device_buffer(gl, technique::pauses_bytes(work.scene, work.options));
   }
   if (is_packed(work)) {
-    see_texels(gl, work, parts);
+    make_texel_views(gl, work, parts);
     return;
   }
   const scene::VoxelGrid& grid = *work.scene.grid;
   const bool linear = work.options.sampler == technique::Sampler::hardware;
   textures_.push_back(
       {unit_volume, GL_TEXTURE_3D,
-       parts.empty() ? volume_texture(gl, grid, linear)
-                     : texture_of(gl, grid, false, technique::most_held(parts) + 1, nullptr)});
+       parts.empty()
+           ? volume_texture(gl, grid, linear)
+           : texture_of(gl, grid, false, technique::most_stored_cells(parts) + 1, nullptr)});
   textures_.push_back(
       {unit_transfer, GL_TEXTURE_1D, transfer_texture(gl, work.scene.transfer_function)});
 }
@@ -202,27 +203,27 @@ void VolumeData::move_part(const Api& gl, int n) const {
   parts_->move(gl, n, parameters_, cells_.get() != 0 ? &cells_ : nullptr);
 }
 
-void VolumeData::see_texels(const Api& gl, const measure::VolumeWork& work,
-                            const std::vector<technique::Part>& parts) {
+void VolumeData::make_texel_views(const Api& gl, const measure::VolumeWork& work,
+                                  const std::vector<technique::Part>& parts) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   cells_ = cell_buffer(gl, work, parts);
   table_ = constant_buffer(gl, std::as_bytes(std::span(work.scene.transfer_function.entries)));
-  const auto see = [&](GLuint unit, const Buffer& buffer, GLenum format) {
+  const auto add_texel_view = [&](GLuint unit, const Buffer& buffer, GLenum format) {
     Texture texture(gl);
     gl.BindTexture(GL_TEXTURE_BUFFER, texture.get());
     gl.TexBuffer(GL_TEXTURE_BUFFER, format, buffer.get());
     textures_.push_back({unit, GL_TEXTURE_BUFFER, std::move(texture)});
   };
-  see(unit_volume, cells_,
-      technique::packed_texel_bytes(grid.format) == 8 ? GL_RG32UI : GL_RGBA32UI);
-  see(unit_transfer, table_, GL_RGBA32F);
-  see(binding_bricks, bricks_, GL_R32I);
-  see(binding_quadrature, quadrature_, GL_RGBA32F);
+  add_texel_view(unit_volume, cells_,
+                 technique::packed_texel_bytes(grid.format) == 8 ? GL_RG32UI : GL_RGBA32UI);
+  add_texel_view(unit_transfer, table_, GL_RGBA32F);
+  add_texel_view(binding_bricks, bricks_, GL_R32I);
+  add_texel_view(binding_quadrature, quadrature_, GL_RGBA32F);
   gl.check("glTexBuffer");
 }
 
 void VolumeData::bind(const Api& gl) const {
-  for (const Seen& each : textures_) {
+  for (const BoundTexture& each : textures_) {
     gl.ActiveTexture(GL_TEXTURE0 + each.unit);
     gl.BindTexture(each.target, each.texture.get());
   }

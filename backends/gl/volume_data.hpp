@@ -59,8 +59,8 @@ class VolumeData {
   void bind(const Api& gl) const;
 
  private:
-  void see_texels(const Api& gl, const measure::VolumeWork& work,
-                  const std::vector<technique::Part>& parts);
+  void make_texel_views(const Api& gl, const measure::VolumeWork& work,
+                        const std::vector<technique::Part>& parts);
 
   Buffer bricks_;
   Buffer quadrature_;
@@ -72,12 +72,12 @@ class VolumeData {
   // buffer textures.
   Buffer cells_;
   Buffer table_;
-  struct Seen {
+  struct BoundTexture {
     GLuint unit = 0;
     GLenum target = GL_TEXTURE_3D;
     Texture texture;
   };
-  std::vector<Seen> textures_;
+  std::vector<BoundTexture> textures_;
 };
 
 }  // namespace triptych::gl_backend

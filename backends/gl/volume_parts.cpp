@@ -10,7 +10,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-bool holds(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat format) {
+bool can_store(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat format) {
   const TexelFormat texel = texel_format(format);
   gl.TexImage3D(GL_PROXY_TEXTURE_3D, 0, static_cast<GLint>(texel.internal), size[0], size[1],
                 size[2], 0, GL_RED, texel.type, nullptr);
@@ -22,7 +22,7 @@ bool holds(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat for
 
 // Returns the memory available for voxels under the device's limits, and the name of the decisive
 // limit.
-technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
+technique::MemoryLimit memory_limit(const Api& gl, const measure::VolumeWork& work) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   if (is_packed(work)) {
     const auto texels = static_cast<std::uint64_t>(gl.limit(GL_MAX_TEXTURE_BUFFER_SIZE));
@@ -33,7 +33,7 @@ technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
   std::string limit = "the limit derived from GL_MAX_3D_TEXTURE_SIZE";
   if (std::max(grid.size[0], grid.size[1]) > edge) return {0, limit};
   int depth = std::min(grid.size[2], edge);
-  while (depth > 0 && !holds(gl, {grid.size[0], grid.size[1], depth}, grid.format)) {
+  while (depth > 0 && !can_store(gl, {grid.size[0], grid.size[1], depth}, grid.format)) {
     depth /= 2;
     limit = "the limit found with GL_PROXY_TEXTURE_3D";
   }
@@ -43,14 +43,14 @@ technique::Room room_of(const Api& gl, const measure::VolumeWork& work) {
 
 }  // namespace
 
-bool holds_whole(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat format) {
-  return std::ranges::max(size) <= gl.limit(GL_MAX_3D_TEXTURE_SIZE) && holds(gl, size, format);
+bool can_store_whole(const Api& gl, const std::array<int, 3>& size, scene::VoxelFormat format) {
+  return std::ranges::max(size) <= gl.limit(GL_MAX_3D_TEXTURE_SIZE) && can_store(gl, size, format);
 }
 
 technique::Cut cut_of(const Api& gl, std::string_view technique, const measure::VolumeWork& work) {
   const technique::Cut cut = technique::cut_into_parts(
       technique, work.scene, work.options, technique::layers_of(work.scene, work.options),
-      technique::within_budget(room_of(gl, work), work.options));
+      technique::within_budget(memory_limit(gl, work), work.options));
   if (cut.parts.empty() || !technique::has_long_rays(work.scene)) return cut;
   return {.parts = {}, .reason = std::string(technique::long_rays_in_parts)};
 }
@@ -62,7 +62,7 @@ VolumeParts::VolumeParts(const Api& gl, const measure::VolumeWork& work,
       layers_(technique::layers_of(work.scene, work.options)),
       passes_(technique::part_passes(parts, work.scene, work.options, map)),
       place_(technique::raycast_parameters(work.scene, work.options, 1).size()),
-      moved_(gl.held.moved(technique::moved_bytes(passes_, layers_))) {}
+      moved_(gl.memory_ledger.moved(technique::moved_bytes(passes_, layers_))) {}
 
 void VolumeParts::move(const Api& gl, int n, const Buffer& parameters, const Buffer* cells) const {
   const auto& [part, its, read] = passes_.at(static_cast<std::size_t>(n));
@@ -82,8 +82,8 @@ void VolumeParts::move(const Api& gl, int n, const Buffer& parameters, const Buf
 
 void VolumeParts::fill_cells(const Api& gl, const technique::Part& part,
                              const Buffer& cells) const {
-  const std::size_t before = layers_.bytes * static_cast<std::size_t>(part.first_held);
-  fill_buffer(gl, cells, layers_.bytes_of(part.held()),
+  const std::size_t before = layers_.bytes * static_cast<std::size_t>(part.first_stored);
+  fill_buffer(gl, cells, layers_.bytes_of(part.stored_cells()),
               [&](std::size_t begin, std::span<std::byte> out) {
                 technique::fill_packed_cells(*grid_, before + begin, out);
               });

@@ -17,8 +17,8 @@ namespace triptych::gl_backend {
                                     const measure::VolumeWork& work);
 
 // Returns whether one texture can hold the volume.
-[[nodiscard]] bool holds_whole(const Api& gl, const std::array<int, 3>& size,
-                               scene::VoxelFormat format);
+[[nodiscard]] bool can_store_whole(const Api& gl, const std::array<int, 3>& size,
+                                   scene::VoxelFormat format);
 
 // Uploads the parts one after another to the resources that the shader reads.
 class VolumeParts {

@@ -157,7 +157,7 @@ std::optional<std::string> texture_reason(const Api& gl, const scene::VoxelGrid&
     return fmt::format("the volume has {}x{}x{} voxels, but GL_MAX_3D_TEXTURE_SIZE is {}", nx, ny,
                        nz, edge);
   }
-  if (!in_parts && !holds_whole(gl, grid.size, grid.format)) {
+  if (!in_parts && !can_store_whole(gl, grid.size, grid.format)) {
     return fmt::format(
         "GL_PROXY_TEXTURE_3D reports that the driver cannot create a texture of {}x{}x{} voxels in "
         "format {} ({} bytes)",

@@ -61,7 +61,7 @@ class BvhFrames final : public measure::Prepared {
   void add_fit(const RayPrograms& programs, bool moved, std::vector<Launch>& to) const;
   [[nodiscard]] Launch trace(const RayPrograms& programs, cl_uint stride) const;
   [[nodiscard]] std::vector<Launch> frame_launches(const RayPrograms& programs,
-                                                   cl_uint again) const;
+                                                   cl_uint extra_stride) const;
   [[nodiscard]] record::Counts read_counters();
 
   Session session_;
@@ -161,15 +161,16 @@ Launch BvhFrames::trace(const RayPrograms& programs, cl_uint stride) const {
                      stride, boxes_, tree_spheres_, tree_order_, depths_, winners_, counters_);
 }
 
-// `again` is the stride of the injected extra work, or 0 if there is none.
-std::vector<Launch> BvhFrames::frame_launches(const RayPrograms& programs, cl_uint again) const {
+// `extra_stride` is the stride of the injected extra work, or 0 if there is none.
+std::vector<Launch> BvhFrames::frame_launches(const RayPrograms& programs,
+                                              cl_uint extra_stride) const {
   std::vector<Launch> launches;
   if (options_.structure == Structure::rebuilt) add_sort(programs, launches);
   if (options_.structure != Structure::built_once) {
     add_fit(programs, options_.structure == Structure::refitted, launches);
   }
   launches.push_back(trace(programs, 1));
-  if (again > 0) launches.push_back(trace(programs, again));
+  if (extra_stride > 0) launches.push_back(trace(programs, extra_stride));
   launches.push_back(make_launch(programs.shading, "shade",
                                  cl::NDRange(static_cast<std::size_t>(height_)), cl::NDRange(1),
                                  data_.parameters, data_.spheres, data_.ids, data_.colours,

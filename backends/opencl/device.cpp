@@ -60,7 +60,7 @@ class Device final : public measure::Device, public measure::ProbesFeatures {
   [[nodiscard]] std::optional<std::string> unsupported(const measure::Work& work) const override;
   [[nodiscard]] measure::VolumePath default_path(const measure::VolumeKind& volume) const override;
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override;
-  [[nodiscard]] record::Counts memory() const override { return session_.held.counts(); }
+  [[nodiscard]] record::Counts memory() const override { return session_.memory_ledger.counts(); }
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
   [[nodiscard]] measure::Compiled compile(const measure::Work& work) override;
   [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes() override {
@@ -70,9 +70,9 @@ class Device final : public measure::Device, public measure::ProbesFeatures {
  private:
   // Returns the sampler error that the probe measured.
   [[nodiscard]] double sampler_error(scene::VoxelFormat format) const;
-  [[nodiscard]] std::optional<std::string> half_defect(scene::VoxelFormat format) const;
-  [[nodiscard]] std::optional<std::string> image_defect(const scene::VoxelGrid& grid) const;
-  [[nodiscard]] std::optional<std::string> size_defect(std::string_view technique,
+  [[nodiscard]] std::optional<std::string> half_format_reason(scene::VoxelFormat format) const;
+  [[nodiscard]] std::optional<std::string> sampler_image_reason(const scene::VoxelGrid& grid) const;
+  [[nodiscard]] std::optional<std::string> size_reason(std::string_view technique,
                                                        const measure::VolumeWork& work) const;
 
   record::Device info_;
@@ -85,7 +85,7 @@ class Device final : public measure::Device, public measure::ProbesFeatures {
 };
 
 // PoCL 3.1 claims to support images of half floats, but cannot read them without cl_khr_fp16.
-std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const {
+std::optional<std::string> Device::half_format_reason(scene::VoxelFormat format) const {
   if (format != scene::VoxelFormat::f16 || !session_.queue.executes()) return std::nullopt;
   const double error = sampler_error(format);
   const double allowed = technique::allowed_filter_error(technique::least_weight_bits, format);
@@ -97,7 +97,7 @@ std::optional<std::string> Device::half_defect(scene::VoxelFormat format) const 
 }
 
 // Returns the reason why the hardware sampler cannot be used for the grid.
-std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) const {
+std::optional<std::string> Device::sampler_image_reason(const scene::VoxelGrid& grid) const {
   return checked([&]() -> std::optional<std::string> {
     const cl::Device& device = session_.device;
     if (device.getInfo<CL_DEVICE_IMAGE_SUPPORT>() == CL_FALSE) {
@@ -107,7 +107,7 @@ std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) co
       return fmt::format("sampler=hardware: the device has no 3D image format for voxel={}",
                          scene::name_of(grid.format));
     }
-    if (auto defect = half_defect(grid.format)) return defect;
+    if (auto reason = half_format_reason(grid.format)) return reason;
     const std::array<std::size_t, 3> limits{device.getInfo<CL_DEVICE_IMAGE3D_MAX_WIDTH>(),
                                             device.getInfo<CL_DEVICE_IMAGE3D_MAX_HEIGHT>(),
                                             device.getInfo<CL_DEVICE_IMAGE3D_MAX_DEPTH>()};
@@ -123,7 +123,7 @@ std::optional<std::string> Device::image_defect(const scene::VoxelGrid& grid) co
 }
 
 // Returns the reason why one of the buffers does not fit into memory.
-std::optional<std::string> Device::size_defect(std::string_view technique,
+std::optional<std::string> Device::size_reason(std::string_view technique,
                                                const measure::VolumeWork& work) const {
   const technique::Cut cut = cut_of(session_, technique, work);
   if (cut.reason) return cut.reason;
@@ -137,10 +137,11 @@ std::optional<std::string> Device::size_defect(std::string_view technique,
   if (!cut.parts.empty()) buffers.pauses = technique::pauses_bytes(work.scene, work.options);
   const auto most =
       checked([&] { return session_.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); });
-  if (auto defect = technique::buffer_reason(buffers, most, "CL_DEVICE_MAX_MEM_ALLOC_SIZE")) {
-    return defect;
+  if (auto reason = technique::buffer_reason(buffers, most, "CL_DEVICE_MAX_MEM_ALLOC_SIZE")) {
+    return reason;
   }
-  const std::uint64_t all = bordered_layers(*work.scene.grid).room_for(cut.parts) + buffers.all();
+  const std::uint64_t all =
+      bordered_layers(*work.scene.grid).largest_part_bytes(cut.parts) + buffers.all();
   const auto total = checked([&] { return session_.device.getInfo<CL_DEVICE_GLOBAL_MEM_SIZE>(); });
   if (all > total) {
     return fmt::format("needs {} bytes of device memory, but CL_DEVICE_GLOBAL_MEM_SIZE is {}", all,
@@ -161,7 +162,7 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
     return fmt::format("technique '{}' draws {}, but the scene contains none", work.technique,
                        draws_particles ? "particles" : "volumes");
   }
-  if (particles != nullptr) return particle_defect(session_, work.technique, *particles);
+  if (particles != nullptr) return particles_unsupported(session_, work.technique, *particles);
   if (auto reason = technique::raycast_reason(work.technique, volume->scene, volume->options)) {
     return reason;
   }
@@ -173,9 +174,9 @@ std::optional<std::string> Device::unsupported(const measure::Work& work) const 
            "in OpenCL reads two neighbouring voxels at once";
   }
   if (volume->options.sampler == Sampler::hardware) {
-    if (auto defect = image_defect(*volume->scene.grid)) return defect;
+    if (auto reason = sampler_image_reason(*volume->scene.grid)) return reason;
   }
-  return size_defect(work.technique, *volume);
+  return size_reason(work.technique, *volume);
 }
 
 // Unless the hardware sampler is exact, voxels are read from a buffer and interpolated in the

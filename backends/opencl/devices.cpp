@@ -93,7 +93,7 @@ record::Device describe(const cl::Device& device, const std::string& driver) {
 
 // For a device that only compiles, sets the id to one that contains the GPU family selected by the
 // environment variables.
-void only_compile(const std::string& driver, record::Device& info) {
+void compile_only_for_driver(const std::string& driver, record::Device& info) {
   if (!info.cpu_features.empty()) return;
   std::string family = measure::compiled_family(driver);
   if (family.empty()) return;
@@ -105,7 +105,7 @@ void only_compile(const std::string& driver, record::Device& info) {
 }
 
 // Returns the reason why the device cannot be used; empty if it can.
-std::string defect_of(const cl::Device& device) {
+std::string unusable_reason(const cl::Device& device) {
   return checked([&]() -> std::string {
     if (device.getInfo<CL_DEVICE_AVAILABLE>() == CL_FALSE) return "CL_DEVICE_AVAILABLE is false";
     if (device.getInfo<CL_DEVICE_COMPILER_AVAILABLE>() == CL_FALSE) {
@@ -125,13 +125,13 @@ void add_device(Search& search, const cl::Device& device, const std::string& dri
   // another device works.
   const std::string id = record::numbered_id("opencl:" + driver, ++seen[driver]);
   try {
-    if (const std::string defect = defect_of(device); !defect.empty()) {
-      search.broken.push_back({"OpenCL device " + id, defect});
+    if (const std::string reason = unusable_reason(device); !reason.empty()) {
+      search.broken.push_back({"OpenCL device " + id, reason});
       return;
     }
     Found found{.device = device, .info = describe(device, driver)};
     found.info.id = id;
-    only_compile(driver, found.info);
+    compile_only_for_driver(driver, found.info);
     search.found.push_back(std::move(found));
   } catch (const core::ApiError& error) {
     search.broken.push_back({"OpenCL device " + id, error.what()});

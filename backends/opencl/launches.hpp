@@ -24,8 +24,8 @@ struct Launch {
 
 // The name of a kernel, and the source location where it is requested.
 struct KernelName {
-  KernelName(const char* its_name, core::CodePlace its_place = core::CodePlace::current())
-      : name(its_name), place(its_place) {}
+  KernelName(const char* kernel_name, core::CodePlace call_place = core::CodePlace::current())
+      : name(kernel_name), place(call_place) {}
   const char* name;
   core::CodePlace place;
 };

@@ -101,11 +101,11 @@ namespace {
 // Keeps the entry in the ledger until the driver destroys the object. That may be later than the
 // destruction of `object`, because there may be other references to the same OpenCL object.
 void enter(cl::Memory& object, measure::MemoryLedger::Entry entry) {
-  auto held = std::make_unique<measure::MemoryLedger::Entry>(std::move(entry));
+  auto tracked = std::make_unique<measure::MemoryLedger::Entry>(std::move(entry));
   object.setDestructorCallback(
       [](cl_mem, void* data) { delete static_cast<measure::MemoryLedger::Entry*>(data); },
-      held.get());
-  static_cast<void>(held.release());
+      tracked.get());
+  static_cast<void>(tracked.release());
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ cl::Buffer make_buffer(const Session& session, cl_mem_flags flags, std::size_t b
                        core::CodePlace place) {
   try {
     cl::Buffer buffer(session.context, flags, bytes);
-    enter(buffer, session.held.buffer(bytes));
+    enter(buffer, session.memory_ledger.buffer(bytes));
     return buffer;
   } catch (const cl::Error& error) {
     throw_api_error(error, place, fmt::format("for {} bytes", bytes));
@@ -125,8 +125,8 @@ cl::Image3D make_image(const Session& session, const cl::ImageFormat& format,
                        const std::array<std::size_t, 3>& size, core::CodePlace place) {
   try {
     cl::Image3D image(session.context, CL_MEM_READ_ONLY, format, size[0], size[1], size[2]);
-    enter(image, session.held.image(image.getImageInfo<CL_IMAGE_ELEMENT_SIZE>() * size[0] *
-                                    size[1] * size[2]));
+    enter(image, session.memory_ledger.image(image.getImageInfo<CL_IMAGE_ELEMENT_SIZE>() * size[0] *
+                                             size[1] * size[2]));
     return image;
   } catch (const cl::Error& error) {
     throw_api_error(error, place, fmt::format("for {}x{}x{} texels", size[0], size[1], size[2]));

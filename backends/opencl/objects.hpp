@@ -101,7 +101,8 @@ struct Session {
   Queue queue;  // an in-order queue with profiling
   // The number of samples of a ray that a work item processes together (TRI_BATCH in raycast.cl).
   int batch = 1;
-  measure::MemoryLedger held = {};  // memory of the objects that make_buffer and make_image created
+  // The memory of the objects that make_buffer and make_image created.
+  measure::MemoryLedger memory_ledger = {};
 };
 
 // make_buffer() and make_image() record the new object in the session's ledger. They throw

@@ -31,8 +31,8 @@ cl::Buffer upload_property(const Session& session, const technique::Arrangement&
 
 }  // namespace
 
-void look_from(const Session& session, const ParticleData& data,
-               const measure::ParticleWork& work) {
+void upload_camera(const Session& session, const ParticleData& data,
+                   const measure::ParticleWork& work) {
   const technique::ParticleParameters parameters =
       technique::particle_parameters(work.scene, work.options, data.count, data.cell_count);
   write_buffer(session, data.parameters, 0, sizeof parameters, &parameters);

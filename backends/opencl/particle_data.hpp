@@ -21,7 +21,8 @@ struct ParticleData {
 };
 
 // Uses the camera of this scene for all later frames. Returns when the upload has finished.
-void look_from(const Session& session, const ParticleData& data, const measure::ParticleWork& work);
+void upload_camera(const Session& session, const ParticleData& data,
+                   const measure::ParticleWork& work);
 
 // Arranges the particles and uploads them. Returns when the upload has finished.
 [[nodiscard]] ParticleData upload(const Session& session, const measure::ParticleWork& work);

@@ -31,8 +31,8 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
     timed_ = stages_.frame_launches(timed, frame_pass_);
     if (const int stride = work.options.extra_work_stride; stride > 0) {
       extra_ = stages_.make_pass(timed, static_cast<cl_uint>(stride));
-      const std::vector<Launch> again = stages_.again(timed, *extra_);
-      timed_.insert(timed_.end(), again.begin(), again.end());
+      const std::vector<Launch> extra = stages_.extra_launches(timed, *extra_);
+      timed_.insert(timed_.end(), extra.begin(), extra.end());
     }
     if (work.camera_before && session.queue.executes()) draw_before(timed, work);
   });
@@ -43,10 +43,10 @@ ParticleFrames::ParticleFrames(const Session& session, Programs& programs,
 // one.
 void ParticleFrames::draw_before(const ParticlePrograms& programs,
                                  const measure::ParticleWork& work) {
-  look_from(session_, stages_.data(), work.before());
-  const Pass unseen = stages_.make_pass(programs, 1);
-  run_checked(session_, stages_.frame_launches(programs, unseen));
-  look_from(session_, stages_.data(), work);
+  upload_camera(session_, stages_.data(), work.before());
+  const Pass earlier = stages_.make_pass(programs, 1);
+  run_checked(session_, stages_.frame_launches(programs, earlier));
+  upload_camera(session_, stages_.data(), work);
 }
 
 measure::Frame ParticleFrames::frame(measure::Purpose purpose) {
@@ -67,7 +67,7 @@ void ParticleFrames::prepare_counting() {
     constants.count = true;
     counting_ = stages_.frame_launches(particle_programs(programs_, constants), frame_pass_);
   }
-  stages_.forget_hidden();
+  stages_.mark_all_visible();
   run_checked(session_, timed_);
   poison();
   fill_buffer(session_, stages_.counters(), 0,

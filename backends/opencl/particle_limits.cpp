@@ -23,10 +23,10 @@ BinTable bin_table(int width, int height, std::size_t particles) {
   return {.bins = bins, .chunks = std::max(chunks, fewest)};
 }
 
-std::optional<std::string> particle_defect(const Session& session, std::string_view technique,
-                                           const measure::ParticleWork& work) {
-  if (auto defect = technique::option_reason(technique, work.options,
-                                             technique::SpriteRasterizer::in_tiles)) {
+std::optional<std::string> particles_unsupported(const Session& session, std::string_view technique,
+                                                 const measure::ParticleWork& work) {
+  if (auto defect =
+          technique::option_reason(technique, work.options, technique::SpriteRasterizer::tiles)) {
     return defect;
   }
   // The largest width and height of an image, because pixel rectangles store each coordinate in 16

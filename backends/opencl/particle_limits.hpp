@@ -28,8 +28,8 @@ struct BinTable {
 
 // Returns the reason why the device cannot draw these particles with this technique; nullopt if it
 // can.
-[[nodiscard]] std::optional<std::string> particle_defect(const Session& session,
-                                                         std::string_view technique,
-                                                         const measure::ParticleWork& work);
+[[nodiscard]] std::optional<std::string> particles_unsupported(const Session& session,
+                                                               std::string_view technique,
+                                                               const measure::ParticleWork& work);
 
 }  // namespace triptych::opencl_backend

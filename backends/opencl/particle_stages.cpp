@@ -47,13 +47,13 @@ ParticleStages::ParticleStages(const Session& session, ParticleData data,
       rectangles_(make_buffer(2 * data_.count)),
       sprite_colours_(make_buffer(colours_sprites_ ? 4 * data_.count : 0)),
       cosines_(make_buffer(constants.ray_at_vertex ? pixels_ : 0)),
-      shown_(make_buffer(data_.cell_count)),
+      visible_before_(make_buffer(data_.cell_count)),
       states_(make_buffer(data_.cell_count)),
       farthest_(make_buffer(tiles_[0] * tiles_[1])),
       image_(make_buffer(4 * pixels_)),
       ids_(make_buffer(pixels_)),
       counters_(make_buffer(particle_counter_stride * counter_rows_)) {
-  forget_hidden();
+  mark_all_visible();
 }
 
 cl::Buffer ParticleStages::make_buffer(std::size_t words) const {
@@ -68,8 +68,9 @@ cl::NDRange ParticleStages::cell_range() const {
   return cl::NDRange(round_up(std::max<std::size_t>(data_.cell_count, 1), group));
 }
 
-void ParticleStages::forget_hidden() const {
-  fill_buffer(session_, shown_, 1, std::max<std::size_t>(data_.cell_count, 1) * sizeof(cl_uint));
+void ParticleStages::mark_all_visible() const {
+  fill_buffer(session_, visible_before_, 1,
+              std::max<std::size_t>(data_.cell_count, 1) * sizeof(cl_uint));
 }
 
 Pass ParticleStages::make_pass(const ParticlePrograms& programs, cl_uint stride) {
@@ -122,12 +123,12 @@ void ParticleStages::poison(const Pass& pass) const {
 Launch ParticleStages::cull(const ParticlePrograms& programs) const {
   const cl_uint culling = culling_ == technique::Culling::none ? 0 : 1;
   return make_launch(programs.cells, "cull_cells", cell_range(), cl::NDRange(group),
-                     data_.parameters, data_.cells, culling, shown_, states_, counters_);
+                     data_.parameters, data_.cells, culling, visible_before_, states_, counters_);
 }
 
 Launch ParticleStages::test(const ParticlePrograms& programs) const {
   return make_launch(programs.cells, "test_cells", cell_range(), cl::NDRange(group),
-                     data_.parameters, data_.cells, farthest_, shown_, states_, counters_);
+                     data_.parameters, data_.cells, farthest_, visible_before_, states_, counters_);
 }
 
 void ParticleStages::add_binning(const ParticlePrograms& programs, const Pass& pass, cl_uint state,
@@ -220,8 +221,8 @@ std::vector<Launch> ParticleStages::frame_launches(const ParticlePrograms& progr
   return launches;
 }
 
-std::vector<Launch> ParticleStages::again(const ParticlePrograms& programs,
-                                          const Pass& pass) const {
+std::vector<Launch> ParticleStages::extra_launches(const ParticlePrograms& programs,
+                                                   const Pass& pass) const {
   std::vector<Launch> launches;
   add_drawing(programs, pass, drawn_first, launches);
   return launches;

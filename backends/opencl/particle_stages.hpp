@@ -49,12 +49,13 @@ class ParticleStages {
   [[nodiscard]] std::vector<Launch> frame_launches(const ParticlePrograms& programs,
                                                    const Pass& pass) const;
   // Returns the launches that draw the cells of a pass a second time.
-  [[nodiscard]] std::vector<Launch> again(const ParticlePrograms& programs, const Pass& pass) const;
+  [[nodiscard]] std::vector<Launch> extra_launches(const ParticlePrograms& programs,
+                                                   const Pass& pass) const;
   // Overwrites everything that the frames of a pass write: the image, and the data that kernels
   // exchange.
   void poison(const Pass& pass) const;
   // Clears the record of hidden cells, so that all cells count as visible.
-  void forget_hidden() const;
+  void mark_all_visible() const;
 
   [[nodiscard]] const ParticleData& data() const { return data_; }
   [[nodiscard]] const cl::Buffer& image() const { return image_; }
@@ -96,7 +97,7 @@ class ParticleStages {
   cl::Buffer rectangles_;      // the rectangles of pixels that sprites cover
   cl::Buffer sprite_colours_;  // used if the transfer function is evaluated for each sprite
   cl::Buffer cosines_;         // used if rays are computed for each sprite
-  cl::Buffer shown_;           // 1 for each cell that was visible in the previous frame
+  cl::Buffer visible_before_;  // 1 for each cell that was visible in the previous frame
   cl::Buffer states_;          // the state of each cell in the current frame
   cl::Buffer farthest_;        // the farthest depth of each tile
   cl::Buffer image_;

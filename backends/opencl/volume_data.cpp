@@ -151,11 +151,11 @@ cl::Memory upload(const Session& session, const scene::VoxelGrid& grid,
 
 const VolumeCache::Entry& VolumeCache::get(const Session& session, const scene::VoxelGrid& grid,
                                            technique::Sampler sampler,
-                                           const technique::BrickLayout& layout, int held_cells) {
+                                           const technique::BrickLayout& layout, int stored_cells) {
   const std::string key = grid.hash.empty()
                               ? std::string()
                               : fmt::format("{} {} {} {}", grid.hash, scene::name_of(grid.format),
-                                            technique::name_of(sampler), held_cells);
+                                            technique::name_of(sampler), stored_cells);
   if (!key.empty() && key == key_) {
     if (layout != entry_.layout) {
       entry_.ranges = technique::brick_ranges(grid, layout);
@@ -165,12 +165,12 @@ const VolumeCache::Entry& VolumeCache::get(const Session& session, const scene::
   }
   key_.clear();
   entry_ = {};  // frees the old volume before the new one is allocated
-  const auto room = [&] {
+  const auto allocate = [&] {
     return checked([&]() -> cl::Memory {
-      return make_buffer(session, CL_MEM_READ_ONLY, bordered_layers(grid).bytes_of(held_cells));
+      return make_buffer(session, CL_MEM_READ_ONLY, bordered_layers(grid).bytes_of(stored_cells));
     });
   };
-  entry_ = {.volume = held_cells > 0 ? room() : upload(session, grid, sampler),
+  entry_ = {.volume = stored_cells > 0 ? allocate() : upload(session, grid, sampler),
             .layout = layout,
             .ranges = technique::brick_ranges(grid, layout)};
   key_ = key;

@@ -49,11 +49,11 @@ class VolumeCache {
     technique::BrickLayout layout;
     technique::BrickRanges ranges;
   };
-  // The result is valid until the next call. If `held_cells` is not 0, the volume is a buffer for
+  // The result is valid until the next call. If `stored_cells` is not 0, the volume is a buffer for
   // that many cells with undefined content.
   [[nodiscard]] const Entry& get(const Session& session, const scene::VoxelGrid& grid,
                                  technique::Sampler sampler, const technique::BrickLayout& layout,
-                                 int held_cells);
+                                 int stored_cells);
 
  private:
   std::string key_;

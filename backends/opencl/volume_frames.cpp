@@ -71,7 +71,7 @@ VolumeFrames::VolumeFrames(const Session& session, Programs& programs, VolumeCac
   const VolumeCache::Entry& volume =
       volumes.get(session, *work.scene.grid, constants.sampler,
                   technique::brick_layout(work.scene, work.options.skip, work.options.adapt),
-                  technique::most_held(cut.parts));
+                  technique::most_stored_cells(cut.parts));
   const std::vector<std::int32_t> map =
       technique::brick_map(volume.ranges, work.scene, work.options.skip, work.options.adapt);
   if (cut.parts.empty()) dump_standalone(session, work, source, timed_constants, map);
@@ -110,11 +110,12 @@ Launch VolumeFrames::launch(const cl::Program& program, int columns) const {
   const auto width = static_cast<std::size_t>(columns);
   const auto height = static_cast<std::size_t>(height_);
   const cl::NDRange global(round_up(width, group_width), round_up(height, group_height));
-  Launch made = make_launch(program, "raycast", global, cl::NDRange(group_width, group_height),
-                            parameters_, volume_, table_, bricks_, image_, counters_, quadrature_);
-  const auto most = made.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(session_.device);
-  if (most < group_width * group_height) made.local = cl::NullRange;
-  return made;
+  Launch launch =
+      make_launch(program, "raycast", global, cl::NDRange(group_width, group_height), parameters_,
+                  volume_, table_, bricks_, image_, counters_, quadrature_);
+  const auto most = launch.kernel.getWorkGroupInfo<CL_KERNEL_WORK_GROUP_SIZE>(session_.device);
+  if (most < group_width * group_height) launch.local = cl::NullRange;
+  return launch;
 }
 
 void VolumeFrames::poison() {

@@ -8,15 +8,15 @@ namespace triptych::opencl_backend {
 technique::Cut cut_of(const Session& session, std::string_view technique,
                       const measure::VolumeWork& work) {
   const scene::VoxelGrid& grid = *work.scene.grid;
-  technique::Room room{
+  technique::MemoryLimit limit{
       .bytes = checked([&] { return session.device.getInfo<CL_DEVICE_MAX_MEM_ALLOC_SIZE>(); }),
-      .limit = "CL_DEVICE_MAX_MEM_ALLOC_SIZE"};
+      .name = "CL_DEVICE_MAX_MEM_ALLOC_SIZE"};
   const std::uint64_t indexed = most_indices * scene::bytes_of(grid.format);
-  if (work.options.sampler == technique::Sampler::manual && indexed < room.bytes) {
-    room = {indexed, "the size of the largest buffer that the kernel can index"};
+  if (work.options.sampler == technique::Sampler::manual && indexed < limit.bytes) {
+    limit = {indexed, "the size of the largest buffer that the kernel can index"};
   }
   return technique::cut_into_parts(technique, work.scene, work.options, bordered_layers(grid),
-                                   technique::within_budget(room, work.options));
+                                   technique::within_budget(limit, work.options));
 }
 
 VolumeParts::VolumeParts(const Session& session, const measure::VolumeWork& work,
@@ -28,7 +28,8 @@ VolumeParts::VolumeParts(const Session& session, const measure::VolumeWork& work
       voxels_(voxels),
       parameters_(parameters),
       place_(parameters.getInfo<CL_MEM_SIZE>() - sizeof(technique::PartParameters)),
-      moved_(session.held.moved(technique::moved_bytes(passes_, bordered_layers(*grid_)))) {}
+      moved_(
+          session.memory_ledger.moved(technique::moved_bytes(passes_, bordered_layers(*grid_)))) {}
 
 void VolumeParts::run(const Launch& launch, std::vector<cl::Event>& events) const {
   events.assign(1 + passes_.size(), {});
@@ -38,7 +39,7 @@ void VolumeParts::run(const Launch& launch, std::vector<cl::Event>& events) cons
                                       &pass.parameters, nullptr,
                                       i == 0 ? &events.front() : nullptr);
     if (pass.read) {
-      write_layers(session_, voxels_, *grid_, pass.part.first_held, pass.part.held());
+      write_layers(session_, voxels_, *grid_, pass.part.first_stored, pass.part.stored_cells());
     }
     session_.queue.enqueueNDRangeKernel(launch.kernel, cl::NullRange, launch.global, launch.local,
                                         nullptr, &events[1 + i]);

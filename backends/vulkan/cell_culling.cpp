@@ -14,7 +14,7 @@ std::vector<CullPass> passes_of(technique::Culling culling) {
   using enum technique::Culling;
   if (culling == none) return {};
   if (culling == frustum) return {CullPass::view};
-  return {CullPass::seen_before, CullPass::seen_now};
+  return {CullPass::visible_before, CullPass::newly_visible};
 }
 
 std::string code_name(CullPass pass, bool instanced, bool counting) {
@@ -26,7 +26,7 @@ std::string code_name(CullPass pass, bool instanced, bool counting) {
 
 }  // namespace
 
-std::optional<std::string> cannot_cull(const Gpu& gpu, bool instanced) {
+std::optional<std::string> culling_unsupported(const Gpu& gpu, bool instanced) {
   if (instanced && gpu.features.drawIndirectFirstInstance == VK_FALSE) {
     return "the device lacks drawIndirectFirstInstance, which instance culling requires";
   }

@@ -13,7 +13,7 @@ inline constexpr std::uint32_t commands_binding = first_free_binding;
 // `view` selects the cells inside the view. The other two criteria are used by the two passes of
 // occlusion culling, and also depend on the visibility in the previous frame and on the result of
 // the first pass (technique/particles/cull.glsl: TRI_OCCLUSION).
-enum class CullPass : std::uint8_t { view, seen_before, seen_now };
+enum class CullPass : std::uint8_t { view, visible_before, newly_visible };
 
 // The passes that cull cells, and the draws of the remaining cells.
 class CellCulling {
@@ -44,6 +44,6 @@ class CellCulling {
 };
 
 // Returns the reason why the device cannot draw the commands of CellCulling; nullopt if it can.
-[[nodiscard]] std::optional<std::string> cannot_cull(const Gpu& gpu, bool instanced);
+[[nodiscard]] std::optional<std::string> culling_unsupported(const Gpu& gpu, bool instanced);
 
 }  // namespace triptych::vulkan_backend

@@ -20,7 +20,7 @@ std::uint32_t blocks(std::uint32_t pixels) {
 }
 
 // Before the first frame, all cells (ranges of neighbouring particles) count as visible.
-Buffer all_seen(const Gpu& gpu, std::uint32_t cells) {
+Buffer all_visible(const Gpu& gpu, std::uint32_t cells) {
   const std::vector<std::uint32_t> ones(cells + 1, 1U);
   return make_buffer(
       gpu, std::as_bytes(std::span(ones)),
@@ -47,8 +47,8 @@ CellOcclusion::CellOcclusion(const Gpu& gpu, const Layout& layout, std::uint32_t
                              vk::Extent3D extent, const Specialization& constants)
     : gpu_(gpu),
       extent_(extent),
-      before_(all_seen(gpu, cells)),
-      now_(all_seen(gpu, cells)),
+      visible_before_(all_visible(gpu, cells)),
+      visible_now_(all_visible(gpu, cells)),
       farthest_(words(gpu, blocks(extent.width) * blocks(extent.height))),
       depths_(words(gpu, extent.width * extent.height)),
       pipeline_(compute_pipeline(gpu, layout, spirv("farthest.comp.spv"), constants)) {}
@@ -57,14 +57,15 @@ void CellOcclusion::bind(vk::DescriptorSet set) const {
   const auto storage = [&](std::uint32_t binding, const Buffer& buffer) {
     bind_buffer(gpu_, set, binding, vk::DescriptorType::eStorageBuffer, buffer);
   };
-  storage(before_binding, before_);
-  storage(now_binding, now_);
+  storage(before_binding, visible_before_);
+  storage(now_binding, visible_now_);
   storage(farthest_binding, farthest_);
   storage(depths_binding, depths_);
 }
 
 void CellOcclusion::start_frame(const vk::raii::CommandBuffer& commands) const {
-  commands.copyBuffer(now_.get(), before_.get(), vk::BufferCopy{.size = now_.size()});
+  commands.copyBuffer(visible_now_.get(), visible_before_.get(),
+                      vk::BufferCopy{.size = visible_now_.size()});
   barrier(commands);
 }
 

@@ -27,8 +27,8 @@ class CellOcclusion {
  private:
   const Gpu& gpu_;
   vk::Extent3D extent_;
-  Buffer before_;
-  Buffer now_;
+  Buffer visible_before_;
+  Buffer visible_now_;
   Buffer farthest_;
   Buffer depths_;
   vk::Pipeline pipeline_;

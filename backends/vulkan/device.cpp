@@ -101,7 +101,7 @@ measure::VolumePath Device::default_path(const measure::VolumeKind& volume) cons
     return {.voxel = native, .sampler = technique::Sampler::packed};
   }
   for (const scene::VoxelFormat format : {scene::VoxelFormat::f32, native}) {
-    if (!holds_whole(gpu_, volume.size, format)) continue;
+    if (!can_store_whole(gpu_, volume.size, format)) continue;
     if (hardware_error(format).value_or(1) < exact_filter) {
       return {.voxel = format, .sampler = technique::Sampler::hardware};
     }

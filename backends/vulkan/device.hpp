@@ -23,7 +23,7 @@ class Device final : public measure::Device, public measure::ProbesFeatures {
   [[nodiscard]] measure::VolumePath default_path(const measure::VolumeKind& volume) const override;
   [[nodiscard]] double filter_weight_error(const measure::VolumePath& path) const override;
   [[nodiscard]] std::optional<measure::Rasterizer> rasterizer() const override;
-  [[nodiscard]] record::Counts memory() const override { return gpu_.held.counts(); }
+  [[nodiscard]] record::Counts memory() const override { return gpu_.memory_ledger.counts(); }
   [[nodiscard]] std::unique_ptr<measure::Prepared> prepare(const measure::Work& work) override;
   [[nodiscard]] measure::Compiled compile(const measure::Work& work) override;
   [[nodiscard]] std::vector<measure::FeatureProbe> feature_probes() override;

@@ -139,7 +139,7 @@ std::map<std::string, std::string> limits_of(const vk::raii::PhysicalDevice& dev
   return result;
 }
 
-bool tells_driver(const vk::raii::PhysicalDevice& device, std::uint32_t api_version) {
+bool reports_driver(const vk::raii::PhysicalDevice& device, std::uint32_t api_version) {
   if (api_version >= VK_API_VERSION_1_2) return true;
   const auto extensions = device.enumerateDeviceExtensionProperties();
   return std::ranges::any_of(extensions, [](const vk::ExtensionProperties& each) {
@@ -178,7 +178,7 @@ Candidate candidate(vk::raii::PhysicalDevice device) {
             fmt::format("the device supports only Vulkan {}; Vulkan 1.1 is required",
                         version_text(properties.apiVersion))};
   }
-  if (tells_driver(device, properties.apiVersion)) {
+  if (reports_driver(device, properties.apiVersion)) {
     const auto driver =
         device.getProperties2<vk::PhysicalDeviceProperties2, vk::PhysicalDeviceDriverProperties>()
             .get<vk::PhysicalDeviceDriverProperties>();

@@ -35,13 +35,13 @@ constexpr std::array spirv_1_4_names{VK_KHR_SPIRV_1_4_EXTENSION_NAME,
 ExtensionRequest::ExtensionRequest(const vk::raii::PhysicalDevice& physical) {
   const auto offered = offered_by(physical);
   if (!offers(offered, spirv_1_4_names)) return;
-  if (offers(offered, structure_names)) ask_for_rays(physical);
-  if (offered.contains(VK_EXT_MESH_SHADER_EXTENSION_NAME)) ask_for_meshes(physical);
+  if (offers(offered, structure_names)) request_ray_tracing(physical);
+  if (offered.contains(VK_EXT_MESH_SHADER_EXTENSION_NAME)) request_mesh_shaders(physical);
   if (names_.empty()) return;
   for (const char* name : spirv_1_4_names) names_.push_back(name);
 }
 
-void ExtensionRequest::ask_for_rays(const vk::raii::PhysicalDevice& physical) {
+void ExtensionRequest::request_ray_tracing(const vk::raii::PhysicalDevice& physical) {
   const auto offered = offered_by(physical);
   const bool query = offered.contains(VK_KHR_RAY_QUERY_EXTENSION_NAME);
   const bool pipeline = offered.contains(VK_KHR_RAY_TRACING_PIPELINE_EXTENSION_NAME);
@@ -95,7 +95,7 @@ void ExtensionRequest::ask_for_rays(const vk::raii::PhysicalDevice& physical) {
   }
 }
 
-void ExtensionRequest::ask_for_meshes(const vk::raii::PhysicalDevice& physical) {
+void ExtensionRequest::request_mesh_shaders(const vk::raii::PhysicalDevice& physical) {
   const auto feature =
       physical.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceMeshShaderFeaturesEXT>()
           .get<vk::PhysicalDeviceMeshShaderFeaturesEXT>();

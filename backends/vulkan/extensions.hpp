@@ -25,8 +25,8 @@ class ExtensionRequest {
     feature.pNext = chain_;
     chain_ = &feature;
   }
-  void ask_for_rays(const vk::raii::PhysicalDevice& physical);
-  void ask_for_meshes(const vk::raii::PhysicalDevice& physical);
+  void request_ray_tracing(const vk::raii::PhysicalDevice& physical);
+  void request_mesh_shaders(const vk::raii::PhysicalDevice& physical);
 
   Extensions extensions_;
   std::vector<const char*> names_;

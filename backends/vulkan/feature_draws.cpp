@@ -48,16 +48,16 @@ measure::ProbedFeature probe_points(const Gpu& gpu, PointGrid grid, std::uint32_
        .formats = {format}},
       Specialization(NoConstants{}));
   const vk::ClearValue clear(vk::ClearColorValue(std::array{0U, 0U, 0U, 0U}));
-  const vk::Rect2D everything{.extent = {grid.width, grid.height}};
+  const vk::Rect2D whole_area{.extent = {grid.width, grid.height}};
   run_once(gpu, [&](const vk::raii::CommandBuffer& commands) {
     commands.beginRenderPass({.renderPass = *pass,
                               .framebuffer = *framebuffer,
-                              .renderArea = everything,
+                              .renderArea = whole_area,
                               .clearValueCount = 1,
                               .pClearValues = &clear},
                              vk::SubpassContents::eInline);
     commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
-    commands.setScissor(0, everything);
+    commands.setScissor(0, whole_area);
     commands.pushConstants<PointGrid>(*layout.pipeline, vk::ShaderStageFlagBits::eVertex, 0, grid);
     draw(commands);
     commands.endRenderPass();

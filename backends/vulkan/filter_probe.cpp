@@ -64,7 +64,7 @@ std::vector<Sample> random_places() {
   return samples;
 }
 
-bool is_one(const scene::VoxelGrid& grid, const std::array<int, 3>& voxel) {
+bool is_set(const scene::VoxelGrid& grid, const std::array<int, 3>& voxel) {
   std::size_t index = 0;
   for (std::size_t axis = 3; axis-- > 0;) {
     index = index * edge + static_cast<std::size_t>(std::clamp(voxel.at(axis), 0, edge - 1));
@@ -85,7 +85,7 @@ double trilinear(const scene::VoxelGrid& grid, const Sample& place) {
       weight *= upper ? fraction : 1 - fraction;
       voxel.at(axis) = static_cast<int>(std::floor(q)) + (upper ? 1 : 0);
     }
-    if (is_one(grid, voxel)) value += weight;
+    if (is_set(grid, voxel)) value += weight;
   }
   return value;
 }

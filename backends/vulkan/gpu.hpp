@@ -47,7 +47,7 @@ struct Gpu {
   std::unique_ptr<Pipelines> pipelines;
   bool executes = true;       // if false, submit_and_wait() throws and run_once() does nothing
   bool reports_code = false;  // VK_KHR_pipeline_executable_properties is enabled
-  measure::MemoryLedger held = {};  // memory of the buffers and images
+  measure::MemoryLedger memory_ledger = {};  // memory of the buffers and images
   // The number of submissions so far, for error messages about a lost device.
   mutable std::uint64_t submissions = 0;
 

@@ -86,8 +86,8 @@ class HierarchyTracer final : public Tracer {
   }
   void sort(const vk::raii::CommandBuffer& commands, const Layout& layout) const;
   void fit(const vk::raii::CommandBuffer& commands, const Layout& layout, bool refit) const;
-  void send(const vk::raii::CommandBuffer& commands, const Layout& layout, vk::Pipeline pipeline,
-            std::uint32_t stride, std::uint32_t flags) const;
+  void trace_beams(const vk::raii::CommandBuffer& commands, const Layout& layout,
+                   vk::Pipeline pipeline, std::uint32_t stride, std::uint32_t flags) const;
   [[nodiscard]] bool all_ended() const;
 
   const Gpu& gpu_;
@@ -172,8 +172,9 @@ void HierarchyTracer::fit(const vk::raii::CommandBuffer& commands, const Layout&
 }
 
 // Traces every stride-th beam.
-void HierarchyTracer::send(const vk::raii::CommandBuffer& commands, const Layout& layout,
-                           vk::Pipeline pipeline, std::uint32_t stride, std::uint32_t flags) const {
+void HierarchyTracer::trace_beams(const vk::raii::CommandBuffer& commands, const Layout& layout,
+                                  vk::Pipeline pipeline, std::uint32_t stride,
+                                  std::uint32_t flags) const {
   run(commands, layout, pipeline, (grid_.beams() + stride - 1) / stride,
       {stride, grid_.columns, grid_.beams(), flags});
 }
@@ -202,13 +203,13 @@ void HierarchyTracer::prepare(const Layout& layout, vk::DescriptorSet set) {
     bound(commands);
     sort(commands, layout);
     fit(commands, layout, false);
-    send(commands, layout, timed_, 1, leaves_beams);
+    trace_beams(commands, layout, timed_, 1, leaves_beams);
   });
   while (gpu_.executes && !all_ended()) {
     ++rounds_;
     run_once(gpu_, [&](const vk::raii::CommandBuffer& commands) {
       bound(commands);
-      send(commands, layout, timed_, 1, continues_beams | leaves_beams);
+      trace_beams(commands, layout, timed_, 1, continues_beams | leaves_beams);
     });
   }
 }
@@ -220,12 +221,13 @@ void HierarchyTracer::record(const vk::raii::CommandBuffer& commands, const Layo
     fit(commands, layout, options_.structure == Structure::refitted);
   }
   const vk::Pipeline pipeline = counting ? counting_ : timed_;
-  const std::uint32_t keeps = rounds_ > 1 ? leaves_beams : 0;
+  const std::uint32_t keep_flag = rounds_ > 1 ? leaves_beams : 0;
   for (std::uint32_t round = 0; round < rounds_; ++round) {
-    send(commands, layout, pipeline, 1, keeps | (round > 0 ? continues_beams : 0));
+    trace_beams(commands, layout, pipeline, 1, keep_flag | (round > 0 ? continues_beams : 0));
   }
   if (options_.extra_work_stride > 0 && !counting && rounds_ == 1) {
-    send(commands, layout, pipeline, static_cast<std::uint32_t>(options_.extra_work_stride), 0);
+    trace_beams(commands, layout, pipeline, static_cast<std::uint32_t>(options_.extra_work_stride),
+                0);
   }
 }
 

@@ -58,8 +58,8 @@ vk::raii::Instance make_instance(const vk::raii::Context& context, bool labels) 
 }  // namespace
 
 template <typename Severity, typename Types, typename Data>
-VKAPI_ATTR VkBool32 VKAPI_CALL Instance::keep_message(Severity /*severity*/, Types /*types*/,
-                                                      const Data* data, void* report) {
+VKAPI_ATTR VkBool32 VKAPI_CALL Instance::record_message(Severity /*severity*/, Types /*types*/,
+                                                        const Data* data, void* report) {
   auto& kept = *static_cast<Report*>(report);
   const std::lock_guard lock(kept.mutex);
   kept.messages.emplace_back(data->pMessage);
@@ -78,7 +78,7 @@ Instance::Instance()
                        .messageSeverity = vk::DebugUtilsMessageSeverityFlagBitsEXT::eWarning |
                                           vk::DebugUtilsMessageSeverityFlagBitsEXT::eError,
                        .messageType = vk::DebugUtilsMessageTypeFlagBitsEXT::eValidation,
-                       .pfnUserCallback = &keep_message,
+                       .pfnUserCallback = &record_message,
                        .pUserData = report_.get(),
                    });
   });

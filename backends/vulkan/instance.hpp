@@ -34,8 +34,8 @@ class Instance {
   // is assigned, because Vulkan-Hpp expects the types of the C API up to version 1.3, and its own
   // types in 1.4.
   template <typename Severity, typename Types, typename Data>
-  static VKAPI_ATTR VkBool32 VKAPI_CALL keep_message(Severity severity, Types types,
-                                                     const Data* data, void* report);
+  static VKAPI_ATTR VkBool32 VKAPI_CALL record_message(Severity severity, Types types,
+                                                       const Data* data, void* report);
 
   std::unique_ptr<Report> report_ = std::make_unique<Report>();
   vk::raii::Context context_;

@@ -30,15 +30,15 @@ std::uint32_t memory_type(const Gpu& gpu, const vk::MemoryRequirements& needed, 
   const vk::MemoryPropertyFlags host = eHostVisible | eHostCoherent;
   // The property flags in order of preference. The specification guarantees that a type with the
   // last flags exists.
-  std::array<vk::MemoryPropertyFlags, 2> wishes{};
-  if (place == Place::device) wishes = {eDeviceLocal, {}};
-  if (place == Place::upload) wishes = {host, host};
-  if (place == Place::read_back) wishes = {host | eHostCached, host};
+  std::array<vk::MemoryPropertyFlags, 2> preferences{};
+  if (place == Place::device) preferences = {eDeviceLocal, {}};
+  if (place == Place::upload) preferences = {host, host};
+  if (place == Place::read_back) preferences = {host | eHostCached, host};
   vk::DeviceSize largest = 0;
-  for (const vk::MemoryPropertyFlags wish : wishes) {
+  for (const vk::MemoryPropertyFlags preference : preferences) {
     for (std::uint32_t type = 0; type < gpu.memory.memoryTypeCount; ++type) {
       const bool allowed = (needed.memoryTypeBits >> type & 1U) != 0;
-      const bool fits = (gpu.memory.memoryTypes[type].propertyFlags & wish) == wish;
+      const bool fits = (gpu.memory.memoryTypes[type].propertyFlags & preference) == preference;
       if (!allowed || !fits) continue;
       if (heap_size(gpu, type) >= needed.size) return type;
       largest = std::max(largest, heap_size(gpu, type));
@@ -116,7 +116,7 @@ Buffer::Buffer(const Gpu& gpu, vk::DeviceSize size, vk::BufferUsageFlags usage, 
   const vk::MemoryRequirements needed = buffer_.getMemoryRequirements();
   memory_ = allocate(gpu, needed, place, code_place,
                      bool(usage & vk::BufferUsageFlagBits::eShaderDeviceAddress));
-  held_ = gpu.held.buffer(needed.size);
+  ledger_entry_ = gpu.memory_ledger.buffer(needed.size);
   name_object(gpu, vk::ObjectType::eBuffer,
               reinterpret_cast<std::uint64_t>(static_cast<VkBuffer>(*buffer_)), "buffer",
               code_place);
@@ -147,7 +147,7 @@ Image::Image(const Gpu& gpu, vk::ImageType type, vk::Format format, vk::Extent3D
   if (!gpu.executes) return;
   const vk::MemoryRequirements needed = image_.getMemoryRequirements();
   memory_ = allocate(gpu, needed, Place::device, code_place);
-  held_ = gpu.held.image(needed.size);
+  ledger_entry_ = gpu.memory_ledger.image(needed.size);
   name_object(gpu, vk::ObjectType::eImage,
               reinterpret_cast<std::uint64_t>(static_cast<VkImage>(*image_)), "image", code_place);
   image_.bindMemory(*memory_, 0);

@@ -33,7 +33,7 @@ class Buffer {
   vk::raii::DeviceMemory memory_;
   vk::raii::Buffer buffer_;
   std::span<std::byte> mapped_;
-  measure::MemoryLedger::Entry held_;
+  measure::MemoryLedger::Entry ledger_entry_;
 };
 
 // A VkImage with one mip level and one layer in device memory, and its VkImageView.
@@ -59,7 +59,7 @@ class Image {
   vk::raii::DeviceMemory memory_;
   vk::raii::Image image_;
   vk::raii::ImageView view_;
-  measure::MemoryLedger::Entry held_;
+  measure::MemoryLedger::Entry ledger_entry_;
 };
 
 // Changes the layout of the image. The change waits for all earlier writes.

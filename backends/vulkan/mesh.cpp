@@ -26,10 +26,10 @@ constexpr SpriteStage draws_all{vk::ShaderStageFlagBits::eTaskEXT, "mesh_all.tas
                                 "mesh_all_counting.task.spv"};
 constexpr SpriteStage draws_in_view{vk::ShaderStageFlagBits::eTaskEXT, "mesh_view.task.spv",
                                     "mesh_view_counting.task.spv"};
-constexpr SpriteStage draws_seen_before{vk::ShaderStageFlagBits::eTaskEXT, "mesh_before.task.spv",
-                                        "mesh_before_counting.task.spv"};
-constexpr SpriteStage draws_seen_now{vk::ShaderStageFlagBits::eTaskEXT, "mesh_now.task.spv",
-                                     "mesh_now_counting.task.spv"};
+constexpr SpriteStage draws_visible_before{vk::ShaderStageFlagBits::eTaskEXT,
+                                           "mesh_before.task.spv", "mesh_before_counting.task.spv"};
+constexpr SpriteStage draws_newly_visible{vk::ShaderStageFlagBits::eTaskEXT, "mesh_now.task.spv",
+                                          "mesh_now_counting.task.spv"};
 
 SpriteTechnique mesh_technique(technique::Culling culling) {
   switch (culling) {
@@ -38,8 +38,8 @@ SpriteTechnique mesh_technique(technique::Culling culling) {
     case technique::Culling::frustum:
       return {.draw = draw_meshes_with(draws_in_view)};
     case technique::Culling::occlusion:
-      return {.draw = draw_meshes_with(draws_seen_before),
-              .later = draw_meshes_with(draws_seen_now)};
+      return {.draw = draw_meshes_with(draws_visible_before),
+              .later = draw_meshes_with(draws_newly_visible)};
   }
   return {.draw = draw_meshes_with(draws_all)};
 }

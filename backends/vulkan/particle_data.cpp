@@ -131,7 +131,7 @@ void ParticleData::bind(vk::DescriptorSet set, Fetch fetch) const {
   storage(ids_binding, ids_);
 }
 
-void ParticleData::look_from(const measure::ParticleWork& work) const {
+void ParticleData::upload_camera(const measure::ParticleWork& work) const {
   const technique::ParticleParameters parameters =
       technique::particle_parameters(work.scene, work.options, particles_, cells_);
   upload(gpu_, parameters_, std::as_bytes(std::span(&parameters, 1)));

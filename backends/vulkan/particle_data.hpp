@@ -70,7 +70,7 @@ class ParticleData {
   void bind(vk::DescriptorSet set, Fetch fetch) const;
 
   // Uses the camera of this scene for all later frames.
-  void look_from(const measure::ParticleWork& work) const;
+  void upload_camera(const measure::ParticleWork& work) const;
 
   void poison_counters() const;
   void clear_counters(const vk::raii::CommandBuffer& commands) const;

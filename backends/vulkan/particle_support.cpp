@@ -117,12 +117,12 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
                                            const std::string& technique, Needs needs) {
   const scene::ParticleScene& scene = work.scene;
   const scene::ParticleSet& set = *scene.particles;
-  if (auto reason = technique::option_reason(technique, work.options,
-                                             technique::SpriteRasterizer::of_the_api)) {
+  if (auto reason =
+          technique::option_reason(technique, work.options, technique::SpriteRasterizer::api)) {
     return reason;
   }
   const technique::Technique& drawn = technique::technique(technique);
-  if (drawn.asks_corners) {
+  if (drawn.uses_corners) {
     if (auto reason = corners_reason(gpu, work.options.corners)) return reason;
   }
   if (needs != Needs::nothing && gpu.features.vertexPipelineStoresAndAtomics == VK_FALSE) {
@@ -130,7 +130,7 @@ std::optional<std::string> particle_reason(const Gpu& gpu, const measure::Partic
   }
   if (auto reason = ParticleTarget::format_reason(gpu)) return reason;
   if (work.options.culling != technique::Culling::none) {
-    if (auto reason = cannot_cull(gpu, drawn.instanced)) return reason;
+    if (auto reason = culling_unsupported(gpu, drawn.instanced)) return reason;
   }
   if (auto reason = storage_reason(gpu, set, drawn)) return reason;
   constexpr std::uint64_t colour = 4 * sizeof(float);

@@ -116,14 +116,14 @@ std::optional<std::string> ParticleTarget::format_reason(const Gpu& gpu) {
 }
 
 void ParticleTarget::begin(const vk::raii::CommandBuffer& commands, bool continued) const {
-  const vk::Rect2D everything{.extent = {extent().width, extent().height}};
+  const vk::Rect2D whole_area{.extent = {extent().width, extent().height}};
   commands.beginRenderPass({.renderPass = continued ? *continuing_ : *clearing_,
                             .framebuffer = *framebuffer_,
-                            .renderArea = everything,
+                            .renderArea = whole_area,
                             .clearValueCount = static_cast<std::uint32_t>(clear_.size()),
                             .pClearValues = clear_.data()},
                            vk::SubpassContents::eInline);
-  commands.setScissor(0, everything);
+  commands.setScissor(0, whole_area);
 }
 
 // Fills the depth buffer with a value that cannot remain in any pixel, because every frame first

@@ -12,15 +12,15 @@ vk::Pipeline Pipelines::get(const std::string& key, const StageNames& stages, co
   // Captured pipelines have keys of their own, because drivers report nothing about a pipeline that
   // was created without the capture flags.
   const std::string full_key = captures_ ? "captured; " + key : key;
-  auto made = made_.find(full_key);
-  if (made == made_.end()) made = made_.emplace(full_key, make(flags)).first;
+  auto found = pipelines_.find(full_key);
+  if (found == pipelines_.end()) found = pipelines_.emplace(full_key, make(flags)).first;
   if (captures_) {
-    Captured captured{stages, *made->second};
+    Captured captured{stages, *found->second};
     if (std::ranges::find(captured_, captured) == captured_.end()) {
       captured_.push_back(std::move(captured));
     }
   }
-  return *made->second;
+  return *found->second;
 }
 
 void Pipelines::start_capture() {

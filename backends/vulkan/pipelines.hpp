@@ -39,7 +39,7 @@ class Pipelines {
   [[nodiscard]] std::vector<Captured> end_capture();
 
  private:
-  std::map<std::string, vk::raii::Pipeline> made_;
+  std::map<std::string, vk::raii::Pipeline> pipelines_;
   bool captures_ = false;
   std::vector<Captured> captured_;
 };

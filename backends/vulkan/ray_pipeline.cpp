@@ -136,8 +136,8 @@ class RayPipelineTracer final : public StructureTracer {
   void prepare_rays(const Layout& layout) override {
     timed_.emplace(gpu_, layout, constants_, false);
   }
-  void send(const vk::raii::CommandBuffer& commands, const Layout& layout, bool counting,
-            std::uint32_t every_row) const override {
+  void trace_rays(const vk::raii::CommandBuffer& commands, const Layout& layout, bool counting,
+                  std::uint32_t every_row) const override {
     commands.pushConstants<std::int32_t>(*layout.pipeline, stages(), 0,
                                          static_cast<std::int32_t>(every_row));
     (counting ? *counting_ : *timed_)

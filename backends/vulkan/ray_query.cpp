@@ -25,8 +25,8 @@ class RayQueryTracer final : public StructureTracer {
   void prepare_rays(const Layout& layout) override {
     timed_ = compute_pipeline(gpu_, layout, spirv(timed_queries), constants_);
   }
-  void send(const vk::raii::CommandBuffer& commands, const Layout& layout, bool counting,
-            std::uint32_t every_row) const override {
+  void trace_rays(const vk::raii::CommandBuffer& commands, const Layout& layout, bool counting,
+                  std::uint32_t every_row) const override {
     const auto groups = [](std::uint32_t pixels) {
       return (pixels + query_group_edge - 1) / query_group_edge;
     };

@@ -95,14 +95,14 @@ void FragmentFrames::draw(const vk::raii::CommandBuffer& commands, vk::Pipeline 
                           Pass pass) const {
   const Label label(gpu_, commands, "raycast_fragment: one triangle covering the image");
   const vk::Extent3D extent = target_.extent();
-  const vk::Rect2D everything{.extent = {extent.width, extent.height}};
+  const vk::Rect2D whole_area{.extent = {extent.width, extent.height}};
   commands.beginRenderPass(
-      {.renderPass = *render_pass_, .framebuffer = *framebuffer_, .renderArea = everything},
+      {.renderPass = *render_pass_, .framebuffer = *framebuffer_, .renderArea = whole_area},
       vk::SubpassContents::eInline);
   commands.bindPipeline(vk::PipelineBindPoint::eGraphics, pipeline);
   commands.bindDescriptorSets(vk::PipelineBindPoint::eGraphics, *resources_.layout().pipeline, 0,
                               resources_.set(pass), {});
-  commands.setScissor(0, everything);
+  commands.setScissor(0, whole_area);
   commands.draw(3, 1, 0, 0);
   if (pass == Pass::timed) draw_again(commands);
   commands.endRenderPass();

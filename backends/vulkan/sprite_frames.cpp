@@ -78,9 +78,9 @@ SpriteFrames::SpriteFrames(const Gpu& gpu, const Instance& instance,
 // Draws a frame from the previous camera, which is not measured. It is needed because occlusion
 // culling in the first measured frame uses the cells that were visible in the frame before it.
 void SpriteFrames::draw_before(const measure::ParticleWork& work) const {
-  if (work.camera_before) data_.look_from(work.before());
+  if (work.camera_before) data_.upload_camera(work.before());
   static_cast<void>(frames_.submit(measure::Purpose::timing));
-  if (work.camera_before) data_.look_from(work);
+  if (work.camera_before) data_.upload_camera(work);
 }
 
 // Draws two frames, after which the set of hidden cells (ranges of neighbouring particles) no
@@ -130,11 +130,11 @@ SpriteFrames::Draws SpriteFrames::draws(bool counting) const {
   const auto make = [&](const SpriteDraw& draw) {
     return draw_pipeline(gpu_, layout_, target_.pass(), draw_state(draw, counting), constants_);
   };
-  Draws made{.draw = make(technique_.draw), .later = {}, .rest = {}};
-  made.later = made.draw;
-  if (technique_.later) made.later = make(*technique_.later);
-  if (technique_.rest && !technique_.rest_runs.empty()) made.rest = make(*technique_.rest);
-  return made;
+  Draws draws{.draw = make(technique_.draw), .later = {}, .rest = {}};
+  draws.later = draws.draw;
+  if (technique_.later) draws.later = make(*technique_.later);
+  if (technique_.rest && !technique_.rest_runs.empty()) draws.rest = make(*technique_.rest);
+  return draws;
 }
 
 void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Draws& draws,
@@ -145,7 +145,7 @@ void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Draws& 
   if (counting) data_.clear_counters(commands);
   if (occlusion_) {
     occlusion_->start_frame(commands);
-    if (!technique_.draw.meshes) culling_.record(commands, CullPass::seen_before, counting);
+    if (!technique_.draw.meshes) culling_.record(commands, CullPass::visible_before, counting);
   } else if (options_.culling == Culling::frustum && !technique_.draw.meshes) {
     culling_.record(commands, CullPass::view, counting);
   }
@@ -153,11 +153,11 @@ void SpriteFrames::record(const vk::raii::CommandBuffer& commands, const Draws& 
   target_.begin(commands, false);
   if (data_.particles() > 0) draw(commands, draws, counting);
   commands.endRenderPass();
-  if (occlusion_) draw_newly_seen(commands, draws, counting);
+  if (occlusion_) draw_newly_visible(commands, draws, counting);
 }
 
-void SpriteFrames::draw_newly_seen(const vk::raii::CommandBuffer& commands, const Draws& draws,
-                                   bool counting) const {
+void SpriteFrames::draw_newly_visible(const vk::raii::CommandBuffer& commands, const Draws& draws,
+                                      bool counting) const {
   const Label label(gpu_, commands, "draw newly visible cells");
   occlusion_->find_farthest(commands, target_.depth());
   if (technique_.draw.meshes) {
@@ -167,7 +167,7 @@ void SpriteFrames::draw_newly_seen(const vk::raii::CommandBuffer& commands, cons
     commands.endRenderPass();
     return;
   }
-  culling_.record(commands, CullPass::seen_now, counting);
+  culling_.record(commands, CullPass::newly_visible, counting);
   target_.begin(commands, true);
   bind_vertices(commands, draws);
   culling_.draw(commands, 1);

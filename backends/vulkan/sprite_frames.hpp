@@ -78,8 +78,8 @@ class SpriteFrames final : public measure::Prepared {
   [[nodiscard]] std::string_view pixel_stage(bool counting) const;
   void record(const vk::raii::CommandBuffer& commands, const Draws& draws, bool counting) const;
   void draw(const vk::raii::CommandBuffer& commands, const Draws& draws, bool counting) const;
-  void draw_newly_seen(const vk::raii::CommandBuffer& commands, const Draws& draws,
-                       bool counting) const;
+  void draw_newly_visible(const vk::raii::CommandBuffer& commands, const Draws& draws,
+                          bool counting) const;
   void bind_vertices(const vk::raii::CommandBuffer& commands, const Draws& draws) const;
   void bind();
   void draw_before(const measure::ParticleWork& work) const;

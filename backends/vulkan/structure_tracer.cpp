@@ -49,10 +49,10 @@ void StructureTracer::record(const vk::raii::CommandBuffer& commands, const Layo
   if (options_.structure != Structure::built_once) {
     structure_.record_build(commands, options_.structure == Structure::refitted);
   }
-  send(commands, layout, counting, 1);
+  trace_rays(commands, layout, counting, 1);
   if (options_.extra_work_stride > 0 && !counting) {
     barrier(commands);
-    send(commands, layout, counting, static_cast<std::uint32_t>(options_.extra_work_stride));
+    trace_rays(commands, layout, counting, static_cast<std::uint32_t>(options_.extra_work_stride));
   }
 }
 

@@ -24,8 +24,8 @@ class StructureTracer : public Tracer {
   // Creates the pipelines that trace rays.
   virtual void prepare_rays(const Layout& layout) = 0;
   // Traces a ray for each pixel of every `every_row`-th row.
-  virtual void send(const vk::raii::CommandBuffer& commands, const Layout& layout, bool counting,
-                    std::uint32_t every_row) const = 0;
+  virtual void trace_rays(const vk::raii::CommandBuffer& commands, const Layout& layout,
+                          bool counting, std::uint32_t every_row) const = 0;
 
   const Gpu& gpu_;
   technique::ParticleOptions options_;

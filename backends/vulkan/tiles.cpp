@@ -52,7 +52,7 @@ class TilesFrames final : public measure::Prepared {
   void record(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
               bool counting) const;
   void bin(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
-           const technique::TileRound& round, std::uint32_t again) const;
+           const technique::TileRound& round, std::uint32_t extra_cells) const;
   void resolve(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
                const technique::TileRound& round) const;
   void show(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines) const;
@@ -147,16 +147,16 @@ void TilesFrames::push(const vk::raii::CommandBuffer& commands, std::uint32_t fi
                                   RoundOf{first_cell, cells});
 }
 
-// If `again` is not 0, sorts that many cells of the round a second time. This injected extra work
-// does not change the image.
+// If `extra_cells` is not 0, sorts that many cells of the round a second time. This injected extra
+// work does not change the image.
 void TilesFrames::bin(const vk::raii::CommandBuffer& commands, const TilePipelines& pipelines,
-                      const technique::TileRound& round, std::uint32_t again) const {
+                      const technique::TileRound& round, std::uint32_t extra_cells) const {
   const Label label(gpu_, commands, "tiles: cull cells and bin their spheres");
   push(commands, round.first, round.cells);
   run(commands, pipelines[TilePass::cells], groups_for(round.cells, tile_group_size));
   barrier(commands);
   run(commands, pipelines[TilePass::bin], round.cells);
-  if (again > 0) run(commands, pipelines[TilePass::bin], again);
+  if (extra_cells > 0) run(commands, pipelines[TilePass::bin], extra_cells);
   barrier(commands);
 }
 
@@ -202,10 +202,10 @@ void TilesFrames::record(const vk::raii::CommandBuffer& commands, const TilePipe
   for (const technique::TileRound& round : rounds_.rounds) {
     const std::uint32_t end = round.first + round.cells;
     const std::uint32_t due = stride == 0 || counting ? 0 : groups_for(end, stride) - done;
-    const std::uint32_t again = std::min(due, round.cells);
-    done += again;
+    const std::uint32_t extra_cells = std::min(due, round.cells);
+    done += extra_cells;
     buffers_.start_round(commands);
-    bin(commands, pipelines, round, again);
+    bin(commands, pipelines, round, extra_cells);
     const bool last = &round == &rounds_.rounds.back();
     if (!last || round.entries > 0) resolve(commands, pipelines, round);
     if (!last) {

@@ -66,14 +66,14 @@ std::vector<vk::DescriptorSetLayoutBinding> TracedFrames::bindings() const {
 void TracedFrames::prepare() {
   data_.bind(set_, Fetch::by_index);
   bind_buffer(gpu_, set_, traced_pixels_binding, vk::DescriptorType::eStorageBuffer, pixels_);
-  const auto see = [&](std::uint32_t binding, const Buffer& buffer, vk::Format format) {
+  const auto add_texel_view = [&](std::uint32_t binding, const Buffer& buffer, vk::Format format) {
     texels_.push_back({binding, texel_view(gpu_, buffer, format)});
     bind_texels(gpu_, set_, binding, texels_.back().view);
   };
-  see(traced_pixel_texels_binding, pixels_, vk::Format::eR32Uint);
-  see(traced_sphere_texels_binding, data_.spheres(), vk::Format::eR32G32B32A32Sfloat);
-  see(traced_colour_texels_binding, data_.colours(), vk::Format::eR32Uint);
-  see(traced_id_texels_binding, data_.ids(), vk::Format::eR32Uint);
+  add_texel_view(traced_pixel_texels_binding, pixels_, vk::Format::eR32Uint);
+  add_texel_view(traced_sphere_texels_binding, data_.spheres(), vk::Format::eR32G32B32A32Sfloat);
+  add_texel_view(traced_colour_texels_binding, data_.colours(), vk::Format::eR32Uint);
+  add_texel_view(traced_id_texels_binding, data_.ids(), vk::Format::eR32Uint);
   tracer_->bind(set_);
   DrawState state{.stages = {{vk::ShaderStageFlagBits::eVertex, spirv(traced_vertex)},
                              {vk::ShaderStageFlagBits::eFragment, spirv(traced_fragment)}},

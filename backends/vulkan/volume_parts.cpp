@@ -13,8 +13,8 @@
 namespace triptych::vulkan_backend {
 namespace {
 
-technique::Room image_room(const Gpu& gpu, const technique::Layers& slices,
-                           scene::VoxelFormat format) try {
+technique::MemoryLimit image_memory_limit(const Gpu& gpu, const technique::Layers& slices,
+                                          scene::VoxelFormat format) try {
   const auto image = gpu.physical.getImageFormatProperties(
       texture_format(format), vk::ImageType::e3D, vk::ImageTiling::eOptimal,
       vk::ImageUsageFlagBits::eSampled | vk::ImageUsageFlagBits::eTransferDst);
@@ -28,27 +28,27 @@ technique::Room image_room(const Gpu& gpu, const technique::Layers& slices,
 
 // Returns the memory available for voxels under the device's limits, and the name of the decisive
 // limit.
-technique::Room room_of(const Gpu& gpu, const measure::VolumeWork& work) {
+technique::MemoryLimit memory_limit(const Gpu& gpu, const measure::VolumeWork& work) {
   const scene::VoxelFormat format = work.scene.grid->format;
   if (is_packed(work)) {
     const std::uint64_t texels = gpu.properties.limits.maxTexelBufferElements;
     return {texels * technique::packed_texel_bytes(format),
             "the limit derived from maxTexelBufferElements"};
   }
-  return image_room(gpu, technique::slice_layers(work.scene.grid->size, format), format);
+  return image_memory_limit(gpu, technique::slice_layers(work.scene.grid->size, format), format);
 }
 
 }  // namespace
 
-bool holds_whole(const Gpu& gpu, const std::array<int, 3>& size, scene::VoxelFormat format) {
+bool can_store_whole(const Gpu& gpu, const std::array<int, 3>& size, scene::VoxelFormat format) {
   const technique::Layers slices = technique::slice_layers(size, format);
-  return slices.whole <= image_room(gpu, slices, format).bytes;
+  return slices.whole <= image_memory_limit(gpu, slices, format).bytes;
 }
 
 technique::Cut cut_of(const Gpu& gpu, std::string_view technique, const measure::VolumeWork& work) {
   const technique::Cut cut = technique::cut_into_parts(
       technique, work.scene, work.options, technique::layers_of(work.scene, work.options),
-      technique::within_budget(room_of(gpu, work), work.options));
+      technique::within_budget(memory_limit(gpu, work), work.options));
   if (cut.parts.empty()) return cut;
   if (technique::has_long_rays(work.scene)) {
     return {.parts = {}, .reason = std::string(technique::long_rays_in_parts)};
@@ -75,7 +75,7 @@ VolumeParts::VolumeParts(const Gpu& gpu, const measure::VolumeWork& work,
       layers_(technique::layers_of(work.scene, work.options)),
       passes_(technique::part_passes(parts, work.scene, work.options, map)),
       parameters_(std::move(parameters)),
-      moved_(gpu.held.moved(technique::moved_bytes(passes_, layers_))) {}
+      moved_(gpu.memory_ledger.moved(technique::moved_bytes(passes_, layers_))) {}
 
 void VolumeParts::move(int n, const Buffer& parameters, const Image* image, const Buffer* cells) {
   const auto& [part, its, read] = passes_.at(static_cast<std::size_t>(n));
@@ -86,8 +86,8 @@ void VolumeParts::move(int n, const Buffer& parameters, const Image* image, cons
     const technique::Slices slices = technique::slices_of(part, *grid_);
     upload(gpu_, *image, slices.bytes, static_cast<std::uint32_t>(slices.count));
   } else {
-    const std::size_t before = layers_.bytes * static_cast<std::size_t>(part.first_held);
-    upload(gpu_, *cells, layers_.bytes_of(part.held()),
+    const std::size_t before = layers_.bytes * static_cast<std::size_t>(part.first_stored);
+    upload(gpu_, *cells, layers_.bytes_of(part.stored_cells()),
            [&](std::size_t begin, std::span<std::byte> out) {
              technique::fill_packed_cells(*grid_, before + begin, out);
            });

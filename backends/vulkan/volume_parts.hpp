@@ -18,8 +18,8 @@ namespace triptych::vulkan_backend {
                                     const measure::VolumeWork& work);
 
 // Returns whether one image can hold the volume.
-[[nodiscard]] bool holds_whole(const Gpu& gpu, const std::array<int, 3>& size,
-                               scene::VoxelFormat format);
+[[nodiscard]] bool can_store_whole(const Gpu& gpu, const std::array<int, 3>& size,
+                                   scene::VoxelFormat format);
 
 // Uploads the parts one after another to the resources that the shader reads.
 class VolumeParts {

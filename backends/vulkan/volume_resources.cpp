@@ -40,13 +40,14 @@ Image upload_table(const Gpu& gpu, const scene::TransferFunction& function) {
 }
 
 // Creates a buffer for packed cells, each of which stores the eight voxels around a position
-// (packed_cells.hpp). If `held` is 0, the buffer contains the cells of the whole volume. Otherwise,
-// it has space for `held` layers of cells along z, which the host writes before they are read.
-Buffer make_cells(const Gpu& gpu, const measure::VolumeWork& work, int held) {
+// (packed_cells.hpp). If `stored_cells` is 0, the buffer contains the cells of the whole volume.
+// Otherwise, it has space for `stored_cells` layers of cells along z, which the host writes before
+// they are read.
+Buffer make_cells(const Gpu& gpu, const measure::VolumeWork& work, int stored_cells) {
   const scene::VoxelGrid& grid = *work.scene.grid;
   constexpr auto usage = vk::BufferUsageFlagBits::eUniformTexelBuffer;
-  if (held > 0) {
-    return {gpu, technique::layers_of(work.scene, work.options).bytes_of(held),
+  if (stored_cells > 0) {
+    return {gpu, technique::layers_of(work.scene, work.options).bytes_of(stored_cells),
             usage | vk::BufferUsageFlagBits::eTransferDst, Place::device};
   }
   return make_buffer(
@@ -127,11 +128,11 @@ VolumeResources::VolumeResources(const Gpu& gpu, const measure::VolumeWork& work
       layout_(make_layout(gpu, volume_bindings(is_packed(work), !parts.empty()))),
       pool_(make_pool(gpu, pass_count, storage_buffers, is_packed(work) ? texel_buffers : 0)),
       sets_(allocate_sets(gpu, pool_, layout_, pass_count)) {
-  const int held = technique::most_held(parts);
+  const int stored_cells = technique::most_stored_cells(parts);
   if (is_packed(work)) {
-    texels_.emplace(make_texels(work, held));
+    texels_.emplace(make_texels(work, stored_cells));
   } else {
-    images_.emplace(make_images(work, held));
+    images_.emplace(make_images(work, stored_cells));
   }
   if (parts_) {
     pauses_.emplace(gpu, technique::pauses_bytes(work.scene, work.options),
@@ -159,19 +160,20 @@ Buffer VolumeResources::make_parameters(const measure::VolumeWork& work,
 }
 
 VolumeResources::Images VolumeResources::make_images(const measure::VolumeWork& work,
-                                                     int held) const {
+                                                     int stored_cells) const {
   const scene::VoxelGrid& grid = *work.scene.grid;
   const bool linear = work.options.sampler == technique::Sampler::hardware;
-  return {.volume = held > 0 ? volume_image(gpu_, grid, held + 1) : upload_volume(gpu_, grid),
+  return {.volume = stored_cells > 0 ? volume_image(gpu_, grid, stored_cells + 1)
+                                     : upload_volume(gpu_, grid),
           .table = upload_table(gpu_, work.scene.transfer_function),
           .volume_sampler = make_sampler(gpu_, linear ? vk::Filter::eLinear : vk::Filter::eNearest),
           .nearest = make_sampler(gpu_, vk::Filter::eNearest)};
 }
 
 VolumeResources::Texels VolumeResources::make_texels(const measure::VolumeWork& work,
-                                                     int held) const {
+                                                     int stored_cells) const {
   const scene::VoxelGrid& grid = *work.scene.grid;
-  Buffer cells = make_cells(gpu_, work, held);
+  Buffer cells = make_cells(gpu_, work, stored_cells);
   Buffer table = make_buffer(gpu_, std::as_bytes(std::span(work.scene.transfer_function.entries)),
                              vk::BufferUsageFlagBits::eUniformTexelBuffer);
   const vk::Format cell = technique::packed_texel_bytes(grid.format) == 8

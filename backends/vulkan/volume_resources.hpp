@@ -91,10 +91,10 @@ class VolumeResources {
     vk::raii::BufferView bricks_view;
     vk::raii::BufferView quadrature_view;
   };
-  // `held` is the number of layers of cells along z in the largest part; 0 means that the whole
-  // volume is uploaded.
-  [[nodiscard]] Images make_images(const measure::VolumeWork& work, int held) const;
-  [[nodiscard]] Texels make_texels(const measure::VolumeWork& work, int held) const;
+  // `stored_cells` is the number of layers of cells along z in the largest part; 0 means that the
+  // whole volume is uploaded.
+  [[nodiscard]] Images make_images(const measure::VolumeWork& work, int stored_cells) const;
+  [[nodiscard]] Texels make_texels(const measure::VolumeWork& work, int stored_cells) const;
   [[nodiscard]] Buffer make_parameters(const measure::VolumeWork& work,
                                        std::span<const std::int32_t> map,
                                        const std::vector<technique::Part>& parts);

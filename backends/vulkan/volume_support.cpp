@@ -72,7 +72,8 @@ std::optional<std::string> volume_reason(const Gpu& gpu, const measure::VolumeWo
     return reason;
   }
   return memory_reason(
-      gpu, technique::layers_of(work.scene, work.options).room_for(cut.parts) + buffers.all());
+      gpu,
+      technique::layers_of(work.scene, work.options).largest_part_bytes(cut.parts) + buffers.all());
 }
 
 }  // namespace triptych::vulkan_backend

@@ -34,7 +34,7 @@ std::vector<Technique> parse(std::string_view text) {
          .work = entry.at("work") == "draw" ? Work::draw : Work::compute,
          .method = method_of(entry),
          .vertices = vertices_of(entry),
-         .asks_corners = entry.value("asks_corners", false),
+         .uses_corners = entry.value("asks_corners", false),
          .fetches_by_index = entry.value("fetches_by_index", method_of(entry) != Method::sprites),
          .instanced = entry.value("instanced", false),
          .parts = entry.value("parts", false),

@@ -26,7 +26,7 @@ struct Technique {
   Work work = Work::compute;
   Method method = Method::rays;
   Vertices vertices = Vertices::none;
-  bool asks_corners = false;      // the factor `corners` sets the number of a sprite's corners
+  bool uses_corners = false;      // the factor `corners` sets the number of a sprite's corners
   bool fetches_by_index = false;  // its shaders read all spheres from one storage buffer
   bool instanced = false;         // draws one instance per sphere
   bool parts = false;             // can draw a volume in parts if it does not fit into memory

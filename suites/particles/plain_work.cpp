@@ -48,7 +48,7 @@ class Claims {
  public:
   Claims(int width, int height)
       : width_(static_cast<std::size_t>(width)),
-        taken_(width_ * static_cast<std::size_t>(height), false) {}
+        claimed_(width_ * static_cast<std::size_t>(height), false) {}
 
   // Claims all pixels of the rectangle. Returns false if another sprite has already claimed one of
   // them.
@@ -56,8 +56,8 @@ class Claims {
     for (int y = rectangle.y_lo; y < rectangle.y_hi; ++y) {
       for (int x = rectangle.x_lo; x < rectangle.x_hi; ++x) {
         const std::size_t at = static_cast<std::size_t>(y) * width_ + static_cast<std::size_t>(x);
-        if (taken_[at]) return false;
-        taken_[at] = true;
+        if (claimed_[at]) return false;
+        claimed_[at] = true;
       }
     }
     return true;
@@ -65,7 +65,7 @@ class Claims {
 
  private:
   std::size_t width_;
-  std::vector<bool> taken_;
+  std::vector<bool> claimed_;
 };
 
 }  // namespace
@@ -98,7 +98,7 @@ bool sprites_are_apart(const scene::ParticleScene& scene) {
 measure::PlainWork plain_work(const measure::Configuration& configuration,
                               const measure::ParticleWork& work) {
   measure::PlainWork plain{.levels = configuration};
-  const auto plainer = [&](const std::string& factor, const std::string& level, const char* why) {
+  const auto simplify = [&](const std::string& factor, const std::string& level, const char* why) {
     std::string& current = plain.levels.at(factor);
     if (current == level) return;
     current = level;
@@ -106,21 +106,21 @@ measure::PlainWork plain_work(const measure::Configuration& configuration,
   };
   const technique::Technique& technique = technique::technique(configuration.at("technique"));
   if (configuration.at("colour") != "intensity") {
-    plainer("transfer", "vertex", "stored colours need no transfer function");
-    plainer("transfer_function", "haze", "stored colours need no transfer function");
+    simplify("transfer", "vertex", "stored colours need no transfer function");
+    simplify("transfer_function", "haze", "stored colours need no transfer function");
   }
-  if (!technique.asks_corners) plainer("corners", "8", "only polygon_tess uses this factor");
+  if (!technique.uses_corners) simplify("corners", "8", "only polygon_tess uses this factor");
   if (technique.method == technique::Method::rays) {
-    plainer("conservative_depth", "off", "rays always skip spheres that are hidden");
-    plainer("culling", "frustum", "rays always skip spheres that they cannot hit");
+    simplify("conservative_depth", "off", "rays always skip spheres that are hidden");
+    simplify("culling", "frustum", "rays always skip spheres that they cannot hit");
     return plain;
   }
   if (work.options.conservative_depth) {
     if (technique.method == technique::Method::tiles) {
-      plainer("conservative_depth", "off",
-              "the technique 'tiles' always rejects spheres by the depth of their nearest point");
+      simplify("conservative_depth", "off",
+               "the technique 'tiles' always rejects spheres by the depth of their nearest point");
     } else if (sprites_are_apart(work.scene)) {
-      plainer("conservative_depth", "off", "no sprite lies behind another");
+      simplify("conservative_depth", "off", "no sprite lies behind another");
     }
   }
   return plain;

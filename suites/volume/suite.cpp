@@ -87,7 +87,7 @@ class VolumeSuite final : public measure::SuiteWithTruth, public measure::Expect
       tell({.what = configuration.at("data"), .share = 1, .note = note});
     });
   }
-  const LoadedData& load_as_it_is(const Configuration& configuration) {
+  const LoadedData& load_native(const Configuration& configuration) {
     return load(configuration, [](scene::VoxelFormat native, const auto&) { return native; });
   }
   scene::VolumeScene scene(const Configuration& configuration, const LoadedData& loaded) const;
@@ -154,12 +154,12 @@ std::uint64_t budget_of(const measure::Configuration& configuration) {
 measure::VolumePath default_path(const measure::Device& device, measure::VolumeKind volume,
                                  const measure::Configuration& configuration,
                                  scene::Quadrature quadrature) {
-  const bool asks_no_sampler =
+  const bool avoids_hardware_sampler =
       technique::precision(configuration.at("precision")) == technique::Precision::fp64 ||
       quadrature == scene::Quadrature::cells || budget_of(configuration) > 0;
-  if (asks_no_sampler) volume.filter_suffices = false;
+  if (avoids_hardware_sampler) volume.filter_suffices = false;
   const measure::VolumePath path = device.default_path(volume);
-  if (asks_no_sampler && path.sampler == technique::Sampler::hardware) {
+  if (avoids_hardware_sampler && path.sampler == technique::Sampler::hardware) {
     return {volume.native, technique::Sampler::manual};
   }
   return path;
@@ -218,7 +218,7 @@ measure::Work VolumeSuite::calibration(technique::Work kind) {
 
 VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
                                         const std::map<std::string, double>& precision) {
-  const LoadedData& loaded = load_as_it_is(configuration);
+  const LoadedData& loaded = load_native(configuration);
   scene::VolumeScene drawn = scene(configuration, loaded);
   const auto probed = precision.find("filter_weight_error");
   const technique::Precision computed = technique::precision(configuration.at("precision"));
@@ -248,7 +248,7 @@ std::map<std::string, double> VolumeSuite::open_counts(
   if (const technique::Skip skip = technique::skip(configuration.at("skip"));
       skip != technique::Skip::none) {
     const technique::BrickLayout layout = technique::brick_layout(drawn, skip, model.adapt);
-    planes = {.edge = layout.edge, .origin = layout.of_cells ? 0.5 : 0.0};
+    planes = {.edge = layout.edge, .origin = layout.is_cell_aligned ? 0.5 : 0.0};
   }
   return reference::open_counts(drawn, model, planes);
 }
@@ -303,7 +303,7 @@ std::string VolumeSuite::data_hash(const Configuration& configuration) {
 }
 
 nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
-  const LoadedData& loaded = load_as_it_is(configuration);
+  const LoadedData& loaded = load_native(configuration);
   return describe_frame(scene(configuration, loaded), levels_of(configuration, loaded.stress).ert(),
                         levels_of(configuration, loaded.stress).adapt());
 }
@@ -317,7 +317,7 @@ std::vector<std::string> VolumeSuite::describe_data(const Configuration& configu
 
 std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& configuration) {
   std::vector<record::Expectation> result;
-  const auto& stress = load_as_it_is(configuration).stress;
+  const auto& stress = load_native(configuration).stress;
   if (!stress) return result;
   result = stress->expectations;
   if (configuration.at("skip") == "none") return result;
@@ -335,7 +335,7 @@ std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& 
 // The step is not part of the key, because the limit is the image for a step that tends to zero.
 std::string VolumeSuite::limit_key(const Configuration& configuration) {
   if (stress_data(configuration.at("data"))) return {};
-  const LoadedData& loaded = load_as_it_is(configuration);
+  const LoadedData& loaded = load_native(configuration);
   const scene::TransferFunction function =
       levels_of(configuration, loaded.stress).transfer_function(folders_);
   return fmt::format(
@@ -352,17 +352,17 @@ measure::Limit VolumeSuite::limit(const Configuration& configuration) {
   // float image with values up to 1.
   constexpr double tolerance = 0x1.0p-24;
   const reference::Truth truth = reference::render_volume_converged(
-      scene(configuration, load_as_it_is(configuration)), tolerance);
+      scene(configuration, load_native(configuration)), tolerance);
   return {.image = truth.image(), .uncertainty = truth.bound_image()};
 }
 
 std::optional<core::Image> VolumeSuite::closed_form(const Configuration& configuration) {
   const auto analytic = analytic_data(configuration.at("data"));
-  const bool own = configuration.at("transfer_function") == own_transfer_function;
+  const bool has_own_function = configuration.at("transfer_function") == own_transfer_function;
   const bool mapped =
       configuration.at("window") != "full" || configuration.at("mapping") != "linear";
-  if (!analytic || !own || mapped) return std::nullopt;
-  const scene::VolumeScene drawn = scene(configuration, load_as_it_is(configuration));
+  if (!analytic || !has_own_function || mapped) return std::nullopt;
+  const scene::VolumeScene drawn = scene(configuration, load_native(configuration));
   if (drawn.shading.enabled != reference::is_shaded(analytic->problem)) return std::nullopt;
   return analytic_image(*analytic, drawn);
 }

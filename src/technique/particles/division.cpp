@@ -93,8 +93,8 @@ std::pair<std::size_t, double> cheapest(const SliceGroups& parts, double most) {
   Group above;
   for (std::size_t i = slices - 1; i > 0; --i) {
     above.add(parts[i]);
-    const double both = below_cost[i] + above.cost();
-    if (both < best.second) best = {i, both};
+    const double total = below_cost[i] + above.cost();
+    if (total < best.second) best = {i, total};
   }
   return best;
 }
@@ -121,12 +121,13 @@ class PlaneSearch {
     }
   }
 
-  // Returns the plane that saves the most work, or nullopt if no plane saves more than `price`
-  // times the surface area of the box around all spheres. (division.hpp defines the cost of a box.)
-  [[nodiscard]] std::optional<Plane> best(double price) const {
+  // Returns the plane that saves the most work, or nullopt if no plane saves more than
+  // `least_saving` times the surface area of the box around all spheres. (division.hpp defines the
+  // cost of a box.)
+  [[nodiscard]] std::optional<Plane> best(double least_saving) const {
     Group all;
     for (const Group& group : by_axis_[0]) all.add(group);
-    double least = all.cost() - price * all.box.surface();
+    double least = all.cost() - least_saving * all.box.surface();
     std::optional<Plane> best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const auto [slice, cost] = cheapest(by_axis_[axis], least);
@@ -176,7 +177,7 @@ std::uint32_t Grid::cell_of(const std::array<float, 4>& sphere) const {
 Division::Division(const scene::ParticleScene& scene, std::size_t per_cell)
     : scene_(scene),
       grid_(*scene.particles, per_cell),
-      price_(static_cast<double>(per_cell) / 2),
+      least_saving_(static_cast<double>(per_cell) / 2),
       nodes_(std::size_t{grid_.cells()} + 1) {
   const auto count = static_cast<std::uint32_t>(scene.particles->count());
   // Sorts the indices by grid cell. `ends` contains first the number of particles in each cell,
@@ -209,28 +210,28 @@ std::uint32_t Division::part_of(std::uint32_t place) const {
   return part;
 }
 
-void Division::divide(Crowd all) {
-  std::vector<Crowd> open{all};
+void Division::divide(PendingPart all) {
+  std::vector<PendingPart> open{all};
   while (!open.empty()) {
-    const Crowd crowd = open.back();
+    const PendingPart part = open.back();
     open.pop_back();
     // A plane saves less than the cost of this part, which is its number of particles times its
-    // surface area. Dividing at most `price_` particles is therefore never worthwhile.
-    if (static_cast<double>(crowd.places.size()) <= price_) continue;
-    const std::optional<Plane> plane = PlaneSearch(scene_, crowd.places).best(price_);
+    // surface area. Dividing at most `least_saving_` particles is therefore never worthwhile.
+    if (static_cast<double>(part.places.size()) <= least_saving_) continue;
+    const std::optional<Plane> plane = PlaneSearch(scene_, part.places).best(least_saving_);
     if (!plane) continue;
     const auto above =
-        std::partition(crowd.places.begin(), crowd.places.end(), [&](std::uint32_t place) {
+        std::partition(part.places.begin(), part.places.end(), [&](std::uint32_t place) {
           return scene_.particles->spheres[place][plane->axis] < plane->at;
         });
-    const auto below = static_cast<std::size_t>(above - crowd.places.begin());
-    if (below == 0 || below == crowd.places.size()) continue;  // rounding can put all on one side
+    const auto below = static_cast<std::size_t>(above - part.places.begin());
+    if (below == 0 || below == part.places.size()) continue;  // rounding can put all on one side
     const auto child = static_cast<std::uint32_t>(nodes_.size());
-    nodes_[crowd.node] = {
+    nodes_[part.node] = {
         .axis = static_cast<std::uint32_t>(plane->axis), .plane = plane->at, .below = child};
     nodes_.resize(nodes_.size() + 2);
-    open.push_back({child, crowd.places.first(below)});
-    open.push_back({child + 1, crowd.places.subspan(below)});
+    open.push_back({child, part.places.first(below)});
+    open.push_back({child + 1, part.places.subspan(below)});
   }
 }
 

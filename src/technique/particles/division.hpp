@@ -63,18 +63,19 @@ class Division {
     float plane = 0;
     std::uint32_t below = 0;  // node of the lower side; the next node is the upper side
   };
-  struct Crowd {
+  struct PendingPart {
     std::uint32_t node = 0;
     std::span<std::uint32_t> places;
   };
 
   [[nodiscard]] std::uint32_t undivided_part_of(std::uint32_t place) const;
-  void divide(Crowd all);
+  void divide(PendingPart all);
 
   const scene::ParticleScene& scene_;
   Grid grid_;
-  // A part is divided only if this saves at least `price_` times the surface area of its box.
-  double price_;
+  // A part is divided only if this saves at least `least_saving_` times the surface area of its
+  // box.
+  double least_saving_;
   std::vector<Node> nodes_;
 };
 

@@ -11,7 +11,7 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
                                             const ParticleOptions& options,
                                             SpriteRasterizer rasterizer) {
   const bool tiles = technique.method == Method::tiles;
-  const bool in_tiles = tiles || rasterizer == SpriteRasterizer::in_tiles;
+  const bool in_tiles = tiles || rasterizer == SpriteRasterizer::tiles;
   switch (options.fault) {
     case ParticleFault::wrong_sense:
       // The technique `tiles` always rejects hidden spheres by the depth of their front, regardless
@@ -27,7 +27,7 @@ std::optional<std::string> fault_of_sprites(const Technique& technique,
       return "the injected fault lost_at_border requires tiles, but here the API's rasterizer "
              "determines which pixels a sprite covers";
     case ParticleFault::missing_barrier:
-      if (rasterizer == SpriteRasterizer::in_tiles) return std::nullopt;
+      if (rasterizer == SpriteRasterizer::tiles) return std::nullopt;
       return "the injected fault missing_barrier requires work-group barriers, but this technique "
              "uses none with this API";
     case ParticleFault::small_box:
@@ -77,7 +77,7 @@ std::optional<std::string> option_reason(std::string_view id, const ParticleOpti
       return fmt::format("{} supports only ray=pixel, because it draws no vertices", id);
     }
   }
-  if (technique.asks_corners && options.corners < 4) {
+  if (technique.uses_corners && options.corners < 4) {
     return fmt::format("corners={} is too small; the minimum is 4", options.corners);
   }
   if (technique.method == Method::rays) return fault_of_rays(options.fault);

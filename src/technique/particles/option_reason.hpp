@@ -13,7 +13,7 @@ namespace triptych::technique {
 // The implementation that determines which pixels a sprite covers: the API's rasterizer, or kernels
 // that use work groups to bin sprites into tiles. Some faults can be injected into only one of
 // them.
-enum class SpriteRasterizer : std::uint8_t { of_the_api, in_tiles };
+enum class SpriteRasterizer : std::uint8_t { api, tiles };
 
 // Returns why the technique (a name in the catalogue) does not support these options or the
 // injected fault, or nullopt if it supports them. It does not consider the capabilities of a

@@ -15,7 +15,7 @@ class ReachGrid {
   // Shortens the reach of the brick (x, y, z) according to 13 of its neighbours: the neighbours
   // before it in memory order (side −1) or after it (side +1).
   void relax(int x, int y, int z, int side) {
-    const std::size_t here = index(x, y, z);
+    const std::size_t centre = index(x, y, z);
     for (int neighbour = 1; neighbour <= 13; ++neighbour) {
       // In a block of 27 bricks, numbered with x fastest, brick 13 is the brick itself, and bricks
       // 14 to 26 come after it.
@@ -26,9 +26,9 @@ class ReachGrid {
       if (i < 0 || j < 0 || k < 0 || i >= counts_[0] || j >= counts_[1] || k >= counts_[2]) {
         continue;
       }
-      const std::size_t there = index(i, j, k);
-      const bool alike = visible_[there] == visible_[here];
-      reach_[here] = std::min(reach_[here], alike ? reach_[there] + 1 : 1);
+      const std::size_t other = index(i, j, k);
+      const bool same_visibility = visible_[other] == visible_[centre];
+      reach_[centre] = std::min(reach_[centre], same_visibility ? reach_[other] + 1 : 1);
     }
   }
 

@@ -17,7 +17,7 @@ struct Span {
 // Returns the range of voxels of brick b, including its border, along an axis with n voxels.
 Span with_border(int b, int n, const BrickLayout& layout) {
   return {std::max(0, b * layout.edge - layout.border),
-          std::min(n, (b + 1) * layout.edge + layout.border + (layout.of_cells ? 1 : 0))};
+          std::min(n, (b + 1) * layout.edge + layout.border + (layout.is_cell_aligned ? 1 : 0))};
 }
 
 struct Range {
@@ -129,7 +129,7 @@ class OpaqueRanges {
 constexpr std::uint64_t most_map_bytes = 1U << 27U;
 
 BrickLayout bricks_of_cells(const std::array<int, 3>& size) {
-  BrickLayout layout{.edge = 2, .border = 0, .of_cells = true};
+  BrickLayout layout{.edge = 2, .border = 0, .is_cell_aligned = true};
   while (brick_map_bytes(size, layout) > most_map_bytes) layout.edge *= 2;
   return layout;
 }
@@ -140,11 +140,11 @@ BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip, double adap
   BrickLayout layout;
   const bool cells = scene.quadrature == scene::Quadrature::cells;
   if (skip == Skip::distance) layout = bricks_of_cells(scene.grid->size);
-  if (cells) layout = {.edge = layout.edge, .border = 0, .of_cells = true};
+  if (cells) layout = {.edge = layout.edge, .border = 0, .is_cell_aligned = true};
   if (adapt > 0 && scene.shading.enabled) layout.border += 1;
   if (scene.quadrature == scene::Quadrature::preintegrated) {
     const double half = scene.step_voxels / 2;
-    const double farther = layout.of_cells ? std::ceil(half) : std::floor(half + 0.75);
+    const double farther = layout.is_cell_aligned ? std::ceil(half) : std::floor(half + 0.75);
     // A border need not be wider than the volume.
     const int longest = std::max({scene.grid->size[0], scene.grid->size[1], scene.grid->size[2]});
     layout.border += static_cast<int>(std::min(farther, static_cast<double>(longest)));
@@ -155,7 +155,7 @@ BrickLayout brick_layout(const scene::VolumeScene& scene, Skip skip, double adap
 std::array<int, 3> brick_counts(const std::array<int, 3>& size, const BrickLayout& layout) {
   std::array<int, 3> counts{};
   std::ranges::transform(size, counts.begin(), [&](int n) {
-    const int length = layout.of_cells ? std::max(n - 1, 1) : n;
+    const int length = layout.is_cell_aligned ? std::max(n - 1, 1) : n;
     return (length + layout.edge - 1) / layout.edge;
   });
   return counts;

@@ -18,7 +18,7 @@ struct BrickLayout {
   int border = 1;  // number of voxels that samples may read beyond the brick
   // Whether bricks begin at voxel centres instead of half a voxel before them. A brick then
   // consists of edge³ cells of trilinear interpolation, whose corners are (edge + 1)³ voxels.
-  bool of_cells = false;
+  bool is_cell_aligned = false;
 
   bool operator==(const BrickLayout&) const = default;
 };
@@ -30,11 +30,12 @@ struct BrickLayout {
 //     inside the brick reads s/2 farther: ⌊s/2 + ¾⌋ more voxels, which allows a quarter of a voxel
 //     for rounding.
 //   - Skip::distance. Bricks can be small, because a ray leaps over many of them at once. They
-//     begin at voxel centres (of_cells), so that a midpoint sample reads only voxels of the brick
-//     itself, and a preintegrated step reads ⌈s/2⌉ voxels beyond it. If rounding moves a sample
-//     across a face, the voxels behind the face have a weight that is as small as the rounding, at
-//     most 1e-3. brick_visibility() widens the range of values by one table entry, which covers
-//     this error. The edge is 2 cells. It is doubled until the map takes at most 128 MiB.
+//     begin at voxel centres (is_cell_aligned), so that a midpoint sample reads only voxels of the
+//     brick itself, and a preintegrated step reads ⌈s/2⌉ voxels beyond it. If rounding moves a
+//     sample across a face, the voxels behind the face have a weight that is as small as the
+//     rounding, at most 1e-3. brick_visibility() widens the range of values by one table entry,
+//     which covers this error. The edge is 2 cells. It is doubled until the map takes at most 128
+//     MiB.
 //   - Quadrature::cells reads only the eight voxels of a cell, so it uses bricks of cells for both
 //     kinds of skipping.
 //   - `adapt` (RaycastOptions): shading reads one more voxel, which must be included in the range

@@ -53,8 +53,8 @@ std::vector<Part> front_to_back(std::vector<Part> parts, const scene::VolumeScen
   return parts;
 }
 
-std::optional<std::string> why_whole_only(std::string_view technique,
-                                          const RaycastOptions& options) {
+std::optional<std::string> whole_only_reason(std::string_view technique,
+                                             const RaycastOptions& options) {
   if (!technique::technique(technique).parts) {
     return fmt::format("{} cannot draw a volume in parts", technique);
   }
@@ -73,8 +73,8 @@ bool is_read(const Part& part, const scene::VolumeScene& scene, const RaycastOpt
   const BrickLayout layout = brick_layout(scene, options.skip, options.adapt);
   const auto counts = brick_counts(scene.grid->size, layout);
   const auto layer = static_cast<std::size_t>(counts[0]) * static_cast<std::size_t>(counts[1]);
-  const int first = std::clamp((part.first_held - 1) / layout.edge, 0, counts[2] - 1);
-  const int last = std::clamp(part.end_held / layout.edge, 0, counts[2] - 1);
+  const int first = std::clamp((part.first_stored - 1) / layout.edge, 0, counts[2] - 1);
+  const int last = std::clamp(part.end_stored / layout.edge, 0, counts[2] - 1);
   const auto near = map.subspan(layer * static_cast<std::size_t>(first),
                                 layer * static_cast<std::size_t>(last - first + 1));
   return std::ranges::any_of(near, [](std::int32_t brick) { return brick > 0; });
@@ -82,8 +82,8 @@ bool is_read(const Part& part, const scene::VolumeScene& scene, const RaycastOpt
 
 }  // namespace
 
-std::uint64_t Layers::room_for(std::span<const Part> parts) const {
-  return parts.empty() ? whole : bytes_of(most_held(parts));
+std::uint64_t Layers::largest_part_bytes(std::span<const Part> parts) const {
+  return parts.empty() ? whole : bytes_of(most_stored_cells(parts));
 }
 
 Layers slice_layers(const std::array<int, 3>& size, scene::VoxelFormat format) {
@@ -105,42 +105,42 @@ Layers layers_of(const scene::VolumeScene& scene, const RaycastOptions& options)
                                             : slice_layers(grid.size, grid.format);
 }
 
-Room within_budget(Room room, const RaycastOptions& options) {
-  if (options.budget == 0 || options.budget >= room.bytes) return room;
+MemoryLimit within_budget(MemoryLimit limit, const RaycastOptions& options) {
+  if (options.budget == 0 || options.budget >= limit.bytes) return limit;
   return {options.budget, "the budget"};
 }
 
 Cut cut_into_parts(std::string_view technique, const scene::VolumeScene& scene,
-                   const RaycastOptions& options, const Layers& layers, const Room& room) {
+                   const RaycastOptions& options, const Layers& layers, const MemoryLimit& limit) {
   const int cells = cells_of(scene);
-  if (layers.whole <= room.bytes) return {};
+  if (layers.whole <= limit.bytes) return {};
   const std::string too_large =
-      fmt::format("the volume needs {} bytes, but {} is {}", layers.whole, room.limit, room.bytes);
-  if (const auto reason = why_whole_only(technique, options)) {
+      fmt::format("the volume needs {} bytes, but {} is {}", layers.whole, limit.name, limit.bytes);
+  if (const auto reason = whole_only_reason(technique, options)) {
     return {.parts = {}, .reason = too_large + "; " + *reason};
   }
   const int thinnest = 2 * overlap(scene) + 1;
-  if (layers.bytes_of(thinnest) > room.bytes) {
+  if (layers.bytes_of(thinnest) > limit.bytes) {
     return {.parts = {},
             .reason = fmt::format("{}; even its thinnest part needs {} bytes", too_large,
                                   layers.bytes_of(thinnest))};
   }
-  const int most_held = static_cast<int>(room.bytes / layers.bytes) - layers.more;
-  const int most = most_held - (thinnest - 1);
+  const int most_stored_cells = static_cast<int>(limit.bytes / layers.bytes) - layers.more;
+  const int most = most_stored_cells - (thinnest - 1);
   const int count = (cells + most - 1) / most;
   return {.parts = front_to_back(slabs(scene, (cells + count - 1) / count), scene), .reason = {}};
 }
 
-int most_held(std::span<const Part> parts) {
+int most_stored_cells(std::span<const Part> parts) {
   int most = 0;
-  for (const Part& part : parts) most = std::max(most, part.held());
+  for (const Part& part : parts) most = std::max(most, part.stored_cells());
   return most;
 }
 
 Slices slices_of(const Part& part, const scene::VoxelGrid& grid) {
   const std::size_t slice = slice_layers(grid.size, grid.format).bytes;
-  const int first = std::max(part.first_held - 1, 0);
-  const int count = std::min(part.end_held, grid.size[2]) - first;
+  const int first = std::max(part.first_stored - 1, 0);
+  const int count = std::min(part.end_stored, grid.size[2]) - first;
   return {std::span(grid.data).subspan(slice * static_cast<std::size_t>(first),
                                        slice * static_cast<std::size_t>(count)),
           count};
@@ -154,7 +154,7 @@ std::vector<PartPass> part_passes(std::span<const Part> parts, const scene::Volu
     const auto number = static_cast<std::int32_t>(passes.size());
     passes.push_back(
         {.part = part,
-         .parameters = {part.begin, part.end, part.first_held, part.held(), number, {}},
+         .parameters = {part.begin, part.end, part.first_stored, part.stored_cells(), number, {}},
          .read = is_read(part, scene, options, map)});
   }
   return passes;
@@ -163,7 +163,7 @@ std::vector<PartPass> part_passes(std::span<const Part> parts, const scene::Volu
 std::uint64_t moved_bytes(std::span<const PartPass> passes, const Layers& layers) {
   std::uint64_t bytes = 0;
   for (const auto& [part, parameters, read] : passes) {
-    if (read) bytes += layers.bytes_of(part.held());
+    if (read) bytes += layers.bytes_of(part.stored_cells());
   }
   return bytes;
 }

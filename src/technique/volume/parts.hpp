@@ -24,10 +24,10 @@ namespace triptych::technique {
 struct Part {
   int begin = 0;  // the pass takes the samples in the cells from `begin` to `end` (exclusive)
   int end = 0;
-  int first_held = 0;  // the cells that the device stores, because these samples may read them
-  int end_held = 0;
+  int first_stored = 0;  // the cells that the device stores, because these samples may read them
+  int end_stored = 0;
 
-  [[nodiscard]] int held() const noexcept { return end_held - first_held; }
+  [[nodiscard]] int stored_cells() const noexcept { return end_stored - first_stored; }
   bool operator==(const Part&) const = default;
 };
 
@@ -42,7 +42,7 @@ struct Layers {
     return bytes * static_cast<std::uint64_t>(cells + more);
   }
   // Returns the size of the largest part in bytes, or of the whole volume if there are no parts.
-  [[nodiscard]] std::uint64_t room_for(std::span<const Part> parts) const;
+  [[nodiscard]] std::uint64_t largest_part_bytes(std::span<const Part> parts) const;
 };
 // Returns the layers for plain slices.
 [[nodiscard]] Layers slice_layers(const std::array<int, 3>& size, scene::VoxelFormat format);
@@ -53,11 +53,11 @@ struct Layers {
 
 // The maximum number of bytes of device memory for voxels, and the name of this limit, which is the
 // device's own limit or, if it is lower, the budget in the options.
-struct Room {
+struct MemoryLimit {
   std::uint64_t bytes = 0;
-  std::string limit;
+  std::string name;
 };
-[[nodiscard]] Room within_budget(Room room, const RaycastOptions& options);
+[[nodiscard]] MemoryLimit within_budget(MemoryLimit limit, const RaycastOptions& options);
 
 struct Cut {
   std::vector<Part> parts;  // in the order of their passes; empty if the whole volume fits
@@ -71,13 +71,13 @@ struct Cut {
 // step may cross.
 [[nodiscard]] Cut cut_into_parts(std::string_view technique, const scene::VolumeScene& scene,
                                  const RaycastOptions& options, const Layers& layers,
-                                 const Room& room);
+                                 const MemoryLimit& limit);
 
 // Returns the number of cells in the largest part.
-[[nodiscard]] int most_held(std::span<const Part> parts);
+[[nodiscard]] int most_stored_cells(std::span<const Part> parts);
 
-// The slices that the cells of a part need. The first slice is slice first_held − 1, or slice 0 if
-// that is negative.
+// The slices that the cells of a part need. The first slice is slice first_stored − 1, or slice 0
+// if that is negative.
 struct Slices {
   std::span<const std::byte> bytes;
   int count = 0;
@@ -86,8 +86,8 @@ struct Slices {
 
 // The parameters of kernels that draw parts. They are stored directly after the raycast_parameters.
 struct PartParameters {
-  std::int32_t begin, end, first_held, held;  // see Part
-  std::int32_t pass;                          // 0-based index
+  std::int32_t begin, end, first_stored, stored_cells;  // see Part
+  std::int32_t pass;                                    // 0-based index
   std::int32_t padding[3];
 };
 

@@ -71,9 +71,9 @@ class CellIntegral {
 
   void split(double begin, double end, int level) {
     constexpr int deepest = 40;
-    const double here = tau(begin);
-    const double there = tau(end);
-    const bool steep = std::abs(there - here) > 0.1 * std::max(1.0, std::min(here, there));
+    const double front = tau(begin);
+    const double back = tau(end);
+    const bool steep = std::abs(back - front) > 0.1 * std::max(1.0, std::min(front, back));
     if (steep && level < deepest) {
       const double middle = 0.5 * (begin + end);
       split(begin, middle, level + 1);

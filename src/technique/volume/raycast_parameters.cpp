@@ -200,7 +200,7 @@ double ray_plane(const scene::VolumeScene& scene) {
                         (corner & 4) == 0 ? box.lo.z : box.hi.z);
     nearest = std::min(nearest, glm::dot(at - scene.camera.eye, scene.camera.forward));
   }
-  return nearest > far_in_diagonals * glm::length(box.hi - box.lo) ? nearest : 0;
+  return nearest > far_eye_in_diagonals * glm::length(box.hi - box.lo) ? nearest : 0;
 }
 
 std::vector<std::byte> raycast_parameters(const scene::VolumeScene& scene,

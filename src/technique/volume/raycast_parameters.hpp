@@ -101,7 +101,7 @@ static_assert(offsetof(BasicRaycastParameters<double>, volume_size) == std::size
 // If the distance of the eye exceeds this number of diagonals of the box, rays begin on the plane
 // that ray_plane() returns. For a closer eye, the error of positions is less than 1e-4 of the box's
 // size.
-inline constexpr double far_in_diagonals = 16;
+inline constexpr double far_eye_in_diagonals = 16;
 
 // Returns the bytes of the parameters, in the precision of the options. A u8 or u16 voxel reaches
 // the shader either as its stored integer (buffer) or divided by the largest integer (UNORM

@@ -111,7 +111,7 @@ void replace_first(std::string& text, std::string_view what, std::string_view wi
 // Changes a shader so that the reference compiler accepts it. That compiler supports storage
 // blocks, compute shaders and `precise` only from GLSL 4.30 on, not through the extensions that add
 // them to 3.30, and gl_BaseInstanceARB only from 4.50 on.
-std::string as_it_knows_it(std::string text) {
+std::string for_reference_compiler(std::string text) {
   replace_first(text, "#version 330", "#version 430");
   if (text.starts_with("#version 430")) replace_first(text, "gl_BaseInstanceARB", "0");
   return text;
@@ -125,7 +125,7 @@ std::string refusal(const Sources& sources) {
   std::string command = TRIPTYCH_GLSLANG;
   for (const auto& [suffix, text] : sources) {
     const std::string name = fmt::format("{}.{}", command.size(), suffix);
-    command += fmt::format(" '{}'", folder.write(name, as_it_knows_it(text)).string());
+    command += fmt::format(" '{}'", folder.write(name, for_reference_compiler(text)).string());
   }
   const test::Result result = test::run_command(command);
   return result.code == 0 ? std::string() : result.output;
@@ -136,7 +136,7 @@ TEST(GlShaderVersions, ShadersConformToTheVersionTheyName) {
   std::ranges::move(particle_works(), std::back_inserter(works));
   for (const Candidate& candidate : egl_candidates()) {
     const Sources sources = sources_of(candidate, works);
-    EXPECT_GT(sources.size(), 20U) << candidate.what;
+    EXPECT_GT(sources.size(), 20U) << candidate.description;
     if (refusal(sources).empty()) continue;
     for (const auto& source : sources) EXPECT_EQ(refusal({source}), "") << source.second;
   }

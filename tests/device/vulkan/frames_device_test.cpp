@@ -100,24 +100,24 @@ TEST(VulkanFrames, StatisticsAreExactAndRepeatable) {
     const auto draw = device.prepare(make_work("raycast_fragment", make_scene()));
     std::uint64_t fragments = 0;
     for (int repeat = 0; repeat < 3; ++repeat) {
-      const record::Counts of_compute = compute->frame(Purpose::statistics).counts;
+      const record::Counts compute_counts = compute->frame(Purpose::statistics).counts;
       // An image of 33×29 pixels has 5×4 tiles of 8×8 pixels.
-      EXPECT_EQ(of_compute, (record::Counts{{"compute_invocations", 5U * 4U * 64U}}));
-      const record::Counts of_draw = draw->frame(Purpose::statistics).counts;
-      EXPECT_EQ(of_draw.at("input_assembly_vertices"), 3U);
-      EXPECT_EQ(of_draw.at("input_assembly_primitives"), 1U);
-      EXPECT_EQ(of_draw.at("vertex_invocations"), 3U);
-      EXPECT_EQ(of_draw.at("clipping_invocations"), 1U);
-      EXPECT_GE(of_draw.at("clipping_primitives"), 1U);
+      EXPECT_EQ(compute_counts, (record::Counts{{"compute_invocations", 5U * 4U * 64U}}));
+      const record::Counts draw_counts = draw->frame(Purpose::statistics).counts;
+      EXPECT_EQ(draw_counts.at("input_assembly_vertices"), 3U);
+      EXPECT_EQ(draw_counts.at("input_assembly_primitives"), 1U);
+      EXPECT_EQ(draw_counts.at("vertex_invocations"), 3U);
+      EXPECT_EQ(draw_counts.at("clipping_invocations"), 1U);
+      EXPECT_GE(draw_counts.at("clipping_primitives"), 1U);
       // The number of fragment invocations depends on how the driver counts, which the gate judges
       // separately. For this image of 33×29 = 957 pixels, lavapipe from Mesa 25.0.7 counts exactly
       // one invocation for each pixel, whereas lavapipe from Mesa 22.3 also counts helper
       // invocations.
-      EXPECT_GT(of_draw.at("fragment_invocations"), 0U);
-      if (repeat == 0) fragments = of_draw.at("fragment_invocations");
-      EXPECT_EQ(of_draw.at("fragment_invocations"), fragments);
-      EXPECT_FALSE(of_draw.contains("compute_invocations"));
-      EXPECT_FALSE(of_draw.contains("geometry_invocations"));
+      EXPECT_GT(draw_counts.at("fragment_invocations"), 0U);
+      if (repeat == 0) fragments = draw_counts.at("fragment_invocations");
+      EXPECT_EQ(draw_counts.at("fragment_invocations"), fragments);
+      EXPECT_FALSE(draw_counts.contains("compute_invocations"));
+      EXPECT_FALSE(draw_counts.contains("geometry_invocations"));
     }
   });
 }
@@ -142,14 +142,14 @@ TEST(VulkanFrames, DeviceTimeCoversTheWholeRenderPass) {
         device.prepare(make_work("raycast_fragment", make_scene({.width = 256, .height = 256})));
     static_cast<void>(prepared->frame(Purpose::timing));  // the first frame compiles shaders
     // Takes the best of several frames, because a busy machine may wake up the thread late.
-    double of_wall = 0;
+    double share_of_wall = 0;
     for (int i = 0; i < 20; ++i) {
       const measure::Frame frame = prepared->frame(Purpose::timing);
       if (!frame.device_ns) GTEST_SKIP() << "the device has no clock";
       EXPECT_LE(*frame.device_ns, frame.wall_ns);
-      of_wall = std::max(of_wall, *frame.device_ns / frame.wall_ns);
+      share_of_wall = std::max(share_of_wall, *frame.device_ns / frame.wall_ns);
     }
-    EXPECT_GE(of_wall, device.info().driver == "llvmpipe" ? 0.5 : 0);
+    EXPECT_GE(share_of_wall, device.info().driver == "llvmpipe" ? 0.5 : 0);
   });
 }
 

@@ -30,13 +30,13 @@ TEST(VulkanLoops, RunToTheirEnd) {
   for (const Candidate& each : candidates(instance.physical_devices())) {
     SCOPED_TRACE(each.info.id);
     const Gpu gpu = open_gpu(each.physical);
-    const auto all_are = [&](std::uint32_t wanted, std::uint32_t expected) {
+    const auto all_count_to = [&](std::uint32_t wanted, std::uint32_t expected) {
       return std::ranges::count(count_to(gpu, wanted), expected) == invocations;
     };
-    EXPECT_TRUE(all_are(60'000, 60'000));
-    if (all_are(100'000, 100'000)) continue;
+    EXPECT_TRUE(all_count_to(60'000, 60'000));
+    if (all_count_to(100'000, 100'000)) continue;
     const std::vector<std::uint32_t> counted = count_to(gpu, 100'000);
-    EXPECT_TRUE(all_are(200'000, counted[0])) << "neither correct nor the known driver fault";
+    EXPECT_TRUE(all_count_to(200'000, counted[0])) << "neither correct nor the known driver fault";
     faulty += each.info.id + " ends loops after " + std::to_string(counted[0]) + " passes; ";
   }
   if (!faulty.empty()) GTEST_SKIP() << "driver fault: " << faulty;

@@ -97,7 +97,7 @@ void expect_truth(measure::Device& device, const scene::ParticleScene& scene,
   const core::Image first = draw_image(device, particle_work(techniques[0], scene, options));
   for (const std::string_view technique : techniques) {
     const measure::Work work = particle_work(technique, scene, options);
-    if (technique::option_reason(technique, options, technique::SpriteRasterizer::of_the_api)) {
+    if (technique::option_reason(technique, options, technique::SpriteRasterizer::api)) {
       EXPECT_TRUE(device.unsupported(work)) << technique << ' ' << what;
       continue;
     }

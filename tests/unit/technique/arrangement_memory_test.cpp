@@ -15,7 +15,7 @@
 namespace {
 
 // Initialised at compile time, because allocations can happen before main().
-constinit std::atomic<std::size_t> held_bytes{0};
+constinit std::atomic<std::size_t> allocated_bytes{0};
 constinit std::atomic<std::size_t> most_bytes{0};
 
 }  // namespace
@@ -25,15 +25,15 @@ constinit std::atomic<std::size_t> most_bytes{0};
 [[gnu::noinline]] void* operator new(std::size_t size) {
   void* memory = std::malloc(std::max<std::size_t>(size, 1));
   if (memory == nullptr) throw std::bad_alloc();
-  const std::size_t held = held_bytes += ::malloc_usable_size(memory);
+  const std::size_t allocated = allocated_bytes += ::malloc_usable_size(memory);
   std::size_t most = most_bytes;
-  while (held > most && !most_bytes.compare_exchange_weak(most, held)) {
+  while (allocated > most && !most_bytes.compare_exchange_weak(most, allocated)) {
   }
   return memory;
 }
 
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
-  held_bytes -= ::malloc_usable_size(memory);
+  allocated_bytes -= ::malloc_usable_size(memory);
   std::free(memory);
 }
 
@@ -55,13 +55,13 @@ class ArrangementMemory : public testing::TestWithParam<scene::ColourKind> {};
 // for the cells.
 TEST_P(ArrangementMemory, ArrangingTakesFourBytesPerParticle) {
   scene::ParticleScene scene;
-  const std::size_t before = held_bytes;
+  const std::size_t before = allocated_bytes;
   scene.particles = std::make_shared<const scene::ParticleSet>(
       scene::generate_particles("uniform", 400'000, GetParam()));
   scene.camera = scene::particle_camera("orbit_y:1/8", *scene.particles, 60);
   const double set_bytes = static_cast<double>(bytes_of(*scene.particles));
-  EXPECT_LT(static_cast<double>(held_bytes - before), 1.001 * set_bytes);
-  most_bytes = held_bytes.load();
+  EXPECT_LT(static_cast<double>(allocated_bytes - before), 1.001 * set_bytes);
+  most_bytes = allocated_bytes.load();
   const Arrangement arrangement = arrange(scene);
   EXPECT_EQ(arrangement.count(), scene.particles->count());
   const double order_bytes = 4.0 * static_cast<double>(arrangement.count());

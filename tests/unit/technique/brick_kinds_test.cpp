@@ -137,12 +137,12 @@ TEST(BrickKinds, FollowTheCriterion) {
     Sample least = sample_at(scene.transfer_function, lo);
     Sample largest = least;
     const auto widen = [&](double value) {
-      const Sample here = sample_at(scene.transfer_function, value);
-      least.extinction = std::min(least.extinction, here.extinction);
-      largest.extinction = std::max(largest.extinction, here.extinction);
+      const Sample sample = sample_at(scene.transfer_function, value);
+      least.extinction = std::min(least.extinction, sample.extinction);
+      largest.extinction = std::max(largest.extinction, sample.extinction);
       for (std::size_t c = 0; c < 3; ++c) {
-        least.colour[c] = std::min(least.colour[c], here.colour[c]);
-        largest.colour[c] = std::max(largest.colour[c], here.colour[c]);
+        least.colour[c] = std::min(least.colour[c], sample.colour[c]);
+        largest.colour[c] = std::max(largest.colour[c], sample.colour[c]);
       }
     };
     widen(hi);

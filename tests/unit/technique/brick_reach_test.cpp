@@ -65,7 +65,7 @@ TEST(BrickLayout, CoversEverythingThatASampleMayRead) {
       scene::encode(scene::generate_volume("uniform_box", {40, 40, 40}), scene::VoxelFormat::u8));
   EXPECT_EQ(brick_layout(scene, Skip::bricks), (BrickLayout{.edge = 8, .border = 1}));
   EXPECT_EQ(brick_layout(scene, Skip::distance),
-            (BrickLayout{.edge = 2, .border = 0, .of_cells = true}));
+            (BrickLayout{.edge = 2, .border = 0, .is_cell_aligned = true}));
   scene.quadrature = scene::Quadrature::preintegrated;
   // With a step of ¼ voxel, a sample reads up to ½ + ⅛ voxel beyond a face of its brick (for the
   // interpolation and for half a step), plus round-off.

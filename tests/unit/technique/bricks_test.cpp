@@ -39,7 +39,7 @@ void expect_range(const scene::VoxelGrid& grid, const BrickLayout& layout, std::
         for (std::size_t axis = 0; axis < 3; ++axis) {
           const int begin = brick[axis] * layout.edge - layout.border;
           const int end =
-              (brick[axis] + 1) * layout.edge + layout.border + (layout.of_cells ? 1 : 0);
+              (brick[axis] + 1) * layout.edge + layout.border + (layout.is_cell_aligned ? 1 : 0);
           within = within && begin <= at[axis] && at[axis] < end;
         }
         const auto value = static_cast<float>(grid.normalised(index));
@@ -58,8 +58,9 @@ TEST(Bricks, RangesAreThoseOfTheirVoxels) {
     scene::VoxelGrid grid =
         scene::encode(scene::generate_volume("frequency_box", size), scene::VoxelFormat::u8);
     for (const int border : {0, 1, 3, 40}) {
-      for (const BrickLayout& layout : {BrickLayout{.edge = 2, .border = border, .of_cells = true},
-                                        BrickLayout{.edge = 4, .border = border}}) {
+      for (const BrickLayout& layout :
+           {BrickLayout{.edge = 2, .border = border, .is_cell_aligned = true},
+            BrickLayout{.edge = 4, .border = border}}) {
         const BrickRanges ranges = brick_ranges(grid, layout);
         std::size_t b = 0;
         for (int z = 0; z < ranges.counts[2]; ++z) {

@@ -23,9 +23,9 @@ TEST(Hierarchy, LeavesContainEveryParticleOnce) {
     EXPECT_EQ(tree.leaf_begin(0), 0U);
     EXPECT_EQ(tree.leaf_begin(tree.leaves()), count);
     for (std::uint32_t leaf = 0; leaf < tree.leaves(); ++leaf) {
-      const std::uint32_t held = tree.leaf_begin(leaf + 1) - tree.leaf_begin(leaf);
-      EXPECT_LE(held, 8U);
-      EXPECT_GE(held, count < 4 ? count : 4U);
+      const std::uint32_t size = tree.leaf_begin(leaf + 1) - tree.leaf_begin(leaf);
+      EXPECT_LE(size, 8U);
+      EXPECT_GE(size, count < 4 ? count : 4U);
     }
   }
 }

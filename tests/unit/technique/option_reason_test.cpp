@@ -12,16 +12,16 @@ using testing::HasSubstr;
 constexpr std::array<std::string_view, 8> techniques{
     "quad_screen",  "quad_ray",         "quad_instanced", "quad_tess",
     "polygon_tess", "polygon_adaptive", "point",          "tiles"};
-constexpr std::array both_rasterizers{SpriteRasterizer::of_the_api, SpriteRasterizer::in_tiles};
+constexpr std::array all_rasterizers{SpriteRasterizer::api, SpriteRasterizer::tiles};
 
 std::string reason(std::string_view technique, const ParticleOptions& options,
-                   SpriteRasterizer rasterizer = SpriteRasterizer::of_the_api) {
+                   SpriteRasterizer rasterizer = SpriteRasterizer::api) {
   return option_reason(technique, options, rasterizer).value_or("");
 }
 
 TEST(OptionReason, WithoutFaultsOnlyRaysAndCornersAreRejected) {
   for (const std::string_view technique : techniques) {
-    for (const SpriteRasterizer rasterizer : both_rasterizers) {
+    for (const SpriteRasterizer rasterizer : all_rasterizers) {
       for (const Culling culling : {Culling::none, Culling::frustum, Culling::occlusion}) {
         for (const bool conservative : {false, true}) {
           EXPECT_EQ(reason(technique, {.conservative_depth = conservative, .culling = culling},
@@ -36,7 +36,7 @@ TEST(OptionReason, WithoutFaultsOnlyRaysAndCornersAreRejected) {
 
 TEST(OptionReason, RaysAtVerticesNeedVertices) {
   for (const std::string_view technique : techniques) {
-    for (const SpriteRasterizer rasterizer : both_rasterizers) {
+    for (const SpriteRasterizer rasterizer : all_rasterizers) {
       const bool refused = technique == "point" || technique == "tiles";
       EXPECT_EQ(reason(technique, {.ray = ComputedAt::vertex}, rasterizer).empty(), !refused)
           << technique;
@@ -56,7 +56,7 @@ TEST(OptionReason, APolygonHasAtLeastFourCorners) {
 
 TEST(OptionReason, AFaultNeedsTheCodeThatItBreaks) {
   for (const std::string_view technique : techniques) {
-    for (const SpriteRasterizer rasterizer : both_rasterizers) {
+    for (const SpriteRasterizer rasterizer : all_rasterizers) {
       const auto refused = [&](const ParticleOptions& options) {
         return !reason(technique, options, rasterizer).empty();
       };
@@ -69,10 +69,10 @@ TEST(OptionReason, AFaultNeedsTheCodeThatItBreaks) {
       EXPECT_TRUE(refused({.culling = Culling::none, .fault = ParticleFault::culled_visible}));
       EXPECT_EQ(refused({.fault = ParticleFault::wrong_sense}), !tiles) << technique;
       EXPECT_FALSE(refused({.conservative_depth = true, .fault = ParticleFault::wrong_sense}));
-      const bool in_tiles = tiles || rasterizer == SpriteRasterizer::in_tiles;
+      const bool in_tiles = tiles || rasterizer == SpriteRasterizer::tiles;
       EXPECT_EQ(refused({.fault = ParticleFault::lost_at_border}), !in_tiles) << technique;
       EXPECT_EQ(refused({.fault = ParticleFault::missing_barrier}),
-                rasterizer != SpriteRasterizer::in_tiles)
+                rasterizer != SpriteRasterizer::tiles)
           << technique;
     }
   }

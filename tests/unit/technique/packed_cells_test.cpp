@@ -28,16 +28,16 @@ std::vector<std::byte> packed(const scene::VoxelGrid& grid) {
 
 // Returns whether the k-th voxel of a texel equals the given voxel of the grid, with indices
 // clamped to the grid.
-bool holds(const std::vector<std::byte>& bytes, std::size_t texel, std::size_t k,
-           const scene::VoxelGrid& grid, std::array<int, 3> voxel) {
+bool contains_voxel(const std::vector<std::byte>& bytes, std::size_t texel, std::size_t k,
+                    const scene::VoxelGrid& grid, std::array<int, 3> voxel) {
   std::size_t index = 0;
   for (std::size_t axis = 3; axis-- > 0;) {
     const int inside = std::clamp(voxel.at(axis), 0, grid.size.at(axis) - 1);
     index = index * static_cast<std::size_t>(grid.size.at(axis)) + static_cast<std::size_t>(inside);
   }
-  const std::size_t one = scene::bytes_of(grid.format);
-  return std::memcmp(&bytes[texel * packed_texel_bytes(grid.format) + k * one],
-                     &grid.data[index * one], one) == 0;
+  const std::size_t voxel_bytes = scene::bytes_of(grid.format);
+  return std::memcmp(&bytes[texel * packed_texel_bytes(grid.format) + k * voxel_bytes],
+                     &grid.data[index * voxel_bytes], voxel_bytes) == 0;
 }
 
 TEST(PackedCells, ContainTheSurroundingVoxels) {
@@ -53,8 +53,8 @@ TEST(PackedCells, ContainTheSurroundingVoxels) {
           const auto texel = static_cast<std::size_t>(x + 6 * (y + 5 * z));
           for (std::size_t k = 0; k < 4 * depth; ++k) {
             const auto bit = [k](unsigned at) { return static_cast<int>(k >> at & 1U); };
-            EXPECT_TRUE(
-                holds(bytes, texel, k, grid, {x - 1 + bit(0), y - 1 + bit(1), z - 1 + bit(2)}))
+            EXPECT_TRUE(contains_voxel(bytes, texel, k, grid,
+                                       {x - 1 + bit(0), y - 1 + bit(1), z - 1 + bit(2)}))
                 << scene::name_of(format) << ' ' << x << ' ' << y << ' ' << z << ' ' << k;
           }
         }

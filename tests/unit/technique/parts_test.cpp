@@ -12,7 +12,7 @@
 namespace triptych::technique {
 namespace {
 
-constexpr Layers of_one_byte{.bytes = 1, .more = 1, .whole = 102};
+constexpr Layers one_byte_layers{.bytes = 1, .more = 1, .whole = 102};
 
 // Returns a scene with a volume of 100 slices and the eye at slice `eye_z`.
 scene::VolumeScene scene_of(double eye_z) {
@@ -23,8 +23,8 @@ scene::VolumeScene scene_of(double eye_z) {
   return scene;
 }
 
-std::vector<Part> cut(const scene::VolumeScene& scene, std::uint64_t room) {
-  const Cut cut = cut_into_parts("raycast", scene, {}, of_one_byte, {room, "the room"});
+std::vector<Part> cut(const scene::VolumeScene& scene, std::uint64_t limit) {
+  const Cut cut = cut_into_parts("raycast", scene, {}, one_byte_layers, {limit, "the room"});
   EXPECT_FALSE(cut.reason) << *cut.reason;
   return cut.parts;
 }
@@ -37,27 +37,27 @@ TEST(Parts, AreNotUsedIfTheVolumeFits) {
 TEST(Parts, ContainEveryCellOnceWithItsSamples) {
   for (const double eye : {-30.0, 0.0, 3.0, 49.5, 50.0, 99.0, 200.0}) {
     for (const bool shaded : {false, true}) {
-      for (const std::uint64_t room : {11U, 30U, 80U}) {
+      for (const std::uint64_t limit : {11U, 30U, 80U}) {
         scene::VolumeScene scene = scene_of(eye);
         scene.shading.enabled = shaded;
-        const std::vector<Part> parts = cut(scene, room);
-        std::vector<int> taken(101);
+        const std::vector<Part> parts = cut(scene, limit);
+        std::vector<int> drawn(101);
         for (const Part& part : parts) {
-          EXPECT_LE(of_one_byte.bytes_of(part.held()), room);
+          EXPECT_LE(one_byte_layers.bytes_of(part.stored_cells()), limit);
           const int reach = shaded ? 2 : 1;
-          EXPECT_LE(part.first_held, std::max(part.begin - reach, 0));
-          EXPECT_GE(part.end_held, std::min(part.end + reach, 101));
+          EXPECT_LE(part.first_stored, std::max(part.begin - reach, 0));
+          EXPECT_GE(part.end_stored, std::min(part.end + reach, 101));
           for (int cell = part.begin; cell < part.end; ++cell)
-            ++taken[static_cast<std::size_t>(cell)];
+            ++drawn[static_cast<std::size_t>(cell)];
         }
         // The first part also takes the samples of one more cell on either side. These two cells
         // are counted twice.
         const Part& first = parts.front();
-        for (const int beside : {first.begin, first.end - 1}) {
-          int& times = taken[static_cast<std::size_t>(beside)];
+        for (const int neighbour : {first.begin, first.end - 1}) {
+          int& times = drawn[static_cast<std::size_t>(neighbour)];
           if (times == 2) --times;
         }
-        EXPECT_EQ(std::ranges::count(taken, 1), 101) << "eye " << eye << " room " << room;
+        EXPECT_EQ(std::ranges::count(drawn, 1), 101) << "eye " << eye << " room " << limit;
       }
     }
   }
@@ -92,16 +92,16 @@ TEST(Parts, ContainWholeSteps) {
   scene.quadrature = scene::Quadrature::preintegrated;
   scene.step_voxels = 6.5;
   for (const Part& part : cut(scene, 60)) {
-    EXPECT_LE(part.first_held, std::max(part.begin - 8, 0));
-    EXPECT_GE(part.end_held, std::min(part.end + 8, 101));
+    EXPECT_LE(part.first_stored, std::max(part.begin - 8, 0));
+    EXPECT_GE(part.end_stored, std::min(part.end + 8, 101));
   }
 }
 
 TEST(Parts, AreRejectedWithAReason) {
   const scene::VolumeScene scene = scene_of(50);
-  const auto reason = [&](std::string_view technique, Sampler sampler, std::uint64_t room) {
-    return cut_into_parts(technique, scene, {.sampler = sampler}, of_one_byte,
-                          within_budget({room, "theLimit"}, {}))
+  const auto reason = [&](std::string_view technique, Sampler sampler, std::uint64_t limit) {
+    return cut_into_parts(technique, scene, {.sampler = sampler}, one_byte_layers,
+                          within_budget({limit, "theLimit"}, {}))
         .reason.value_or("");
   };
   EXPECT_EQ(reason("raycast", Sampler::manual, 5),
@@ -114,7 +114,7 @@ TEST(Parts, AreRejectedWithAReason) {
   EXPECT_NE(
       reason("raycast", Sampler::hardware, 50).find("requires sampler=manual or sampler=packed"),
       std::string::npos);
-  EXPECT_EQ(within_budget({1000, "theLimit"}, {.budget = 10}).limit, "the budget");
+  EXPECT_EQ(within_budget({1000, "theLimit"}, {.budget = 10}).name, "the budget");
   EXPECT_EQ(within_budget({1000, "theLimit"}, {.budget = 2000}).bytes, 1000U);
 }
 
@@ -131,7 +131,7 @@ TEST(Parts, AreReadIfABrickNearThemIsVisible) {
     const auto map = brick_map(scene, skip);
     int read = 0;
     for (const PartPass& pass : part_passes(parts, scene, {.skip = skip}, map)) {
-      EXPECT_EQ(pass.parameters.first_held, pass.part.first_held);
+      EXPECT_EQ(pass.parameters.first_stored, pass.part.first_stored);
       read += pass.read ? 1 : 0;
       const bool has_slice_70 = pass.part.begin <= 71 && pass.part.end > 70;
       EXPECT_TRUE(pass.read || !has_slice_70);
@@ -173,7 +173,7 @@ TEST(Slices, LieAroundTheCells) {
   grid.data.resize(9);
   for (std::size_t i = 0; i < 9; ++i) grid.data[i] = std::byte{static_cast<unsigned char>(i)};
   const auto slices = [&](int first, int end) {
-    const Slices of = slices_of({.first_held = first, .end_held = end}, grid);
+    const Slices of = slices_of({.first_stored = first, .end_stored = end}, grid);
     EXPECT_EQ(of.bytes.size(), static_cast<std::size_t>(of.count));
     return std::pair{static_cast<int>(of.bytes.front()), of.count};
   };

@@ -1,4 +1,4 @@
-#include "backends/gl/only_compile.hpp"
+#include "backends/gl/compile_only.hpp"
 
 #include <string>
 #include <utility>
