@@ -59,8 +59,8 @@ dvec3 unit(const dvec3& v) {
 // direction.
 dvec3 upright(const dvec3& forward) {
   const bool steep = std::abs(forward.y) > 0.999;
-  const dvec3 wish = steep ? dvec3(0, 0, forward.y < 0 ? -1 : 1) : dvec3(0, 1, 0);
-  return unit(wish - glm::dot(wish, forward) * forward);
+  const dvec3 preferred = steep ? dvec3(0, 0, forward.y < 0 ? -1 : 1) : dvec3(0, 1, 0);
+  return unit(preferred - glm::dot(preferred, forward) * forward);
 }
 
 Pose orbit(const Stage& stage, char axis, double turns) {
@@ -271,7 +271,7 @@ double tangent_of_half(double fov_y_deg) {
   return sine_turns(turns) / cosine_turns(turns);
 }
 
-Camera looking(const dvec3& eye, const dvec3& target, double fov_y_deg) {
+Camera camera_looking_at(const dvec3& eye, const dvec3& target, double fov_y_deg) {
   Camera camera;
   camera.eye = eye;
   camera.forward = glm::normalize(target - eye);

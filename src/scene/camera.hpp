@@ -28,7 +28,8 @@ struct Camera {
 
 // Returns a camera at `eye` that looks at `target`, with its up vector as close to +y as possible.
 // The view direction must not be parallel to y.
-[[nodiscard]] Camera looking(const glm::dvec3& eye, const glm::dvec3& target, double fov_y_deg);
+[[nodiscard]] Camera camera_looking_at(const glm::dvec3& eye, const glm::dvec3& target,
+                                       double fov_y_deg);
 
 struct Box {
   glm::dvec3 lo{0, 0, 0};

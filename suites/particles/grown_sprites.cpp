@@ -74,11 +74,11 @@ Image::Bounds Image::bounds(const Square& square) const {
 }
 
 std::uint64_t Image::ring(const Square& square) const {
-  const Bounds look = bounds(square);
+  const Bounds area = bounds(square);
   const double plane2 = glm::dot(square.centre, square.centre);
   std::uint64_t count = 0;
-  for (int y = look.y_begin; y < look.y_end; ++y) {
-    for (int x = look.x_begin; x < look.x_end; ++x) {
+  for (int y = area.y_begin; y < area.y_end; ++y) {
+    for (int x = area.x_begin; x < area.x_end; ++x) {
       const glm::dvec3 ray((2 * (x + 0.5) / scene_.width - 1) * half_x_,
                            (1 - 2 * (y + 0.5) / scene_.height) * half_y_, 1);
       const double along = glm::dot(ray, square.centre);

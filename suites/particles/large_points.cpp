@@ -56,8 +56,8 @@ void for_each_silhouette(const scene::ParticleScene& scene, Take&& take) {
 
 }  // namespace
 
-std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene, double largest,
-                                            bool occlusion) {
+std::map<std::string, double> open_counts_of_quads(const scene::ParticleScene& scene,
+                                                   double largest, bool occlusion) {
   // A margin for round-off. A device computes a size with about 16 operations, each with a relative
   // error of 2⁻²⁴. In images of less than 16,384 pixels per side, the total error is below 1/64
   // pixel.

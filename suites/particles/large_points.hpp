@@ -22,7 +22,7 @@ namespace triptych::particles_suite {
 //     sprites, if `occlusion` is true: quads are drawn first and completely, so more cells and
 //     particles can be culled behind them, up to all of them. Only the number of visible particles
 //     may not differ.
-[[nodiscard]] std::map<std::string, double> open_by_quads(const scene::ParticleScene& scene,
-                                                          double largest, bool occlusion);
+[[nodiscard]] std::map<std::string, double> open_counts_of_quads(const scene::ParticleScene& scene,
+                                                                 double largest, bool occlusion);
 
 }  // namespace triptych::particles_suite

@@ -10,7 +10,7 @@ namespace triptych::particles_suite {
 namespace {
 
 struct Entry {
-  StressCase of;
+  StressCase info;
   MakeStressScene make;
 };
 
@@ -113,7 +113,7 @@ const std::vector<Entry>& entries() {
 
 const Entry& entry_of(const StressData& data) {
   return *std::ranges::find(entries(), data.of->number,
-                            [](const Entry& entry) { return entry.of.number; });
+                            [](const Entry& entry) { return entry.info.number; });
 }
 
 }  // namespace
@@ -121,7 +121,7 @@ const Entry& entry_of(const StressData& data) {
 const std::vector<StressCase>& stress_cases() {
   static const std::vector<StressCase> cases = [] {
     std::vector<StressCase> all;
-    for (const Entry& entry : entries()) all.push_back(entry.of);
+    for (const Entry& entry : entries()) all.push_back(entry.info);
     return all;
   }();
   return cases;
@@ -137,21 +137,23 @@ std::optional<StressData> stress_data(std::string_view data) {
 
 std::vector<record::Expectation> stress_expectations(const StressData& data) {
   const std::string_view name = data.of->name;
-  const auto as_first = [&](std::string what, float depth_scale) {
+  const auto same_as_first = [&](std::string what, float depth_scale) {
     const StressData first{.of = data.of, .variant = data.of->variants.front()};
     return record::Expectation{
         std::move(what),
         record::SameImage{.changed = {{"data", name_of(first)}}, .depth_scale = depth_scale}};
   };
   if (name == "scale" && data.variant != "unit") {
-    return {as_first("the same image as with unit radii, and depths that are scaled like the radii",
-                     data.variant == "small" ? 0x1.0p-20F : 0x1.0p20F)};
+    return {same_as_first(
+        "the same image as with unit radii, and depths that are scaled like the radii",
+        data.variant == "small" ? 0x1.0p-20F : 0x1.0p20F)};
   }
   if (name == "no_sphere" && data.variant == "with") {
-    return {as_first("an image that is bit-identical to the image of the valid spheres alone", 1)};
+    return {
+        same_as_first("an image that is bit-identical to the image of the valid spheres alone", 1)};
   }
   if (name == "order" && data.variant == "shuffled") {
-    return {as_first("a bit-identical image for any order of the particles in the file", 1)};
+    return {same_as_first("a bit-identical image for any order of the particles in the file", 1)};
   }
   if (name == "count" && data.variant == "0") {
     return {{"only the background", record::OneColour{{0, 0, 0, 0}}}};

@@ -9,7 +9,7 @@
 
 namespace triptych::particles_suite {
 
-using scene::looking;
+using scene::camera_looking_at;
 
 // Width and height of most stress images, in pixels.
 inline constexpr int stress_side = 96;

@@ -43,7 +43,7 @@ void shuffle(scene::ParticleSet& set) {
 }  // namespace
 
 StressScene stress_no_sphere(std::string_view variant, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 4}, {0, 0, 0}, fov), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({0, 0, 4}, {0, 0, 0}, fov), stress_side, stress_side);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   const glm::dvec3 before{0, 0, 0.5};
@@ -68,7 +68,8 @@ StressScene stress_no_sphere(std::string_view variant, scene::ColourKind colour)
 
 // Five spheres, each of which is added eight times. Equal spheres are far apart in the set.
 StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({1, 0.7, 4}, {0, 0, 0}, fov), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({1, 0.7, 4}, {0, 0, 0}, fov), stress_side,
+                    stress_side);
   for (int copy = 0; copy < 8; ++copy) {
     maker.add({0, 0, 0}, 0.9);
     maker.add({1.1, 0.6, 0.2}, 0.5);
@@ -82,7 +83,8 @@ StressScene stress_coincident(std::string_view, scene::ColourKind colour) {
 // A cubic lattice whose spacing equals the radius. Each inner sphere intersects 26 others. Its
 // visible part is bounded by the planes in which it intersects its neighbours.
 StressScene stress_interpenetrating(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({3, 2.2, 4.1}, {0, 0, 0}, 45), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({3, 2.2, 4.1}, {0, 0, 0}, 45), stress_side,
+                    stress_side);
   for (int z = 0; z < 4; ++z) {
     for (int y = 0; y < 4; ++y) {
       for (int x = 0; x < 4; ++x) maker.add(0.5 * glm::dvec3{x, y, z} - 0.75, 0.5);
@@ -96,7 +98,7 @@ StressScene stress_interpenetrating(std::string_view, scene::ColourKind colour) 
 StressScene stress_pile(std::string_view variant, scene::ColourKind colour) {
   constexpr int small_side = 33;
   const std::uint64_t count = number_in<std::uint64_t>(variant);
-  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, fov), small_side, small_side);
+  StressMaker maker(colour, camera_looking_at({0, 0, 0}, {0, 0, -1}, fov), small_side, small_side);
   core::Random random(7);
   const auto jittered = [&] { return small_side / 2.0 + random.uniform(-0.2, 0.2); };
   for (std::uint64_t i = 0; i + 1 < count; ++i) {
@@ -111,7 +113,8 @@ StressScene stress_pile(std::string_view variant, scene::ColourKind colour) {
 StressScene stress_count(std::string_view variant, scene::ColourKind colour) {
   const std::uint64_t count = number_in<std::uint64_t>(variant);
   if (count > 0) return generated("uniform", count, colour, stress_side, stress_side);
-  return StressMaker(colour, looking({0, 0, 3}, {0, 0, 0}, fov), stress_side, stress_side).take();
+  return StressMaker(colour, camera_looking_at({0, 0, 3}, {0, 0, 0}, fov), stress_side, stress_side)
+      .take();
 }
 
 StressScene stress_order(std::string_view variant, scene::ColourKind colour) {
@@ -124,7 +127,8 @@ StressScene stress_order(std::string_view variant, scene::ColourKind colour) {
 // visibility in the previous frame is therefore useless, and most spheres that were hidden have
 // become visible.
 StressScene stress_jump(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({3, 2, -24}, {0, 0, 0}, fov), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({3, 2, -24}, {0, 0, 0}, fov), stress_side,
+                    stress_side);
   for (int y = 0; y < 21; ++y) {
     for (int x = 0; x < 21; ++x) maker.add({x - 10.0, y - 10.0, 0}, 0.75);
   }
@@ -137,7 +141,7 @@ StressScene stress_jump(std::string_view, scene::ColourKind colour) {
     }
   }
   StressScene scene = maker.take();
-  scene.camera_before = looking({0, 0, 24}, {0, 0, 0}, fov);
+  scene.camera_before = camera_looking_at({0, 0, 24}, {0, 0, 0}, fov);
   scene.camera_before->near =
       scene::depth_scale(scene::bounding_box(scene.particles), scene.camera_before->eye);
   return scene;
@@ -162,7 +166,7 @@ StressScene stress_widest(std::string_view, scene::ColourKind colour) {
   constexpr int width = 16384;
   constexpr int height = 8;
   const double degrees = 2 * std::atan(1.0 * height / width) * 180 / std::numbers::pi;
-  StressMaker maker(colour, looking({0, 0, 0}, {0.2, 0.1, -1}, degrees), width, height);
+  StressMaker maker(colour, camera_looking_at({0, 0, 0}, {0.2, 0.1, -1}, degrees), width, height);
   core::Random random(9);
   for (int i = 0; i < 2000; ++i) {
     const double x = random.uniform(0, width);
@@ -174,18 +178,18 @@ StressScene stress_widest(std::string_view, scene::ColourKind colour) {
 
 StressScene stress_field_of_view(std::string_view variant, scene::ColourKind colour) {
   if (variant == "0.001") {
-    StressMaker maker(colour, looking(10.0 * oblique(), {0, 0, 0}, 0.001), stress_side,
+    StressMaker maker(colour, camera_looking_at(10.0 * oblique(), {0, 0, 0}, 0.001), stress_side,
                       stress_side);
     for (int i = 0; i < 5; ++i) maker.add_at(16 + 15.0 * i, 20 + 13.0 * i, 10, 6 + 2.0 * i);
     return maker.take();
   }
   // The image shows almost a half space, so spheres near its edges look large.
-  const scene::Camera camera = looking({0.1, 0.2, 0.3}, {0.4, 0.1, -2}, 179);
+  const scene::Camera camera = camera_looking_at({0.1, 0.2, 0.3}, {0.4, 0.1, -2}, 179);
   StressMaker maker(colour, camera, stress_side, stress_side);
   for (int i = 0; i < 8; ++i) {
-    const double around = 2 * std::numbers::pi * (i + 0.3) / 8;
-    const glm::dvec3 aside = std::cos(around) * camera.right() + std::sin(around) * camera.up;
-    maker.add(camera.eye + (10.0 + i) * (0.08 * camera.forward + aside), 0.7 + 0.05 * i);
+    const double angle = 2 * std::numbers::pi * (i + 0.3) / 8;
+    const glm::dvec3 sideways = std::cos(angle) * camera.right() + std::sin(angle) * camera.up;
+    maker.add(camera.eye + (10.0 + i) * (0.08 * camera.forward + sideways), 0.7 + 0.05 * i);
   }
   maker.add(camera.eye + 10.0 * camera.forward, 9.5);
   return maker.take();
@@ -194,7 +198,8 @@ StressScene stress_field_of_view(std::string_view variant, scene::ColourKind col
 // The letter F, with its lower end closer to the eye, so that every flip and every exchange of axes
 // changes the image.
 StressScene stress_asymmetric(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, fov), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({0, 0, 0}, {0, 0, -1}, fov), stress_side,
+                    stress_side);
   for (int i = 0; i < 7; ++i) maker.add_at(30, 16 + 10.0 * i, 5 - 0.3 * i, 7);
   for (int i = 1; i < 4; ++i) maker.add_at(30 + 11.0 * i, 16, 5 + 0.2 * i, 6);
   for (int i = 1; i < 3; ++i) maker.add_at(30 + 11.0 * i, 45, 4 + 0.2 * i, 5);

@@ -26,7 +26,7 @@ void add_pair(StressMaker& maker) {
 // rounding, so the image must not change.
 StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
   const double scale = variant == "small" ? 0x1.0p-20 : variant == "large" ? 0x1.0p20 : 1.0;
-  StressMaker maker(colour, looking(scale * 5.0 * oblique(), {0, 0, 0}, 40), stress_side,
+  StressMaker maker(colour, camera_looking_at(scale * 5.0 * oblique(), {0, 0, 0}, 40), stress_side,
                     stress_side);
   maker.add({0, 0, 0}, scale);
   maker.add(scale * glm::dvec3{1.2, 0.3, 0.1}, 0.2 * scale);
@@ -40,7 +40,8 @@ StressScene stress_scale(std::string_view variant, scene::ColourKind colour) {
 StressScene stress_far(std::string_view variant, scene::ColourKind colour) {
   constexpr int larger_side = 160;
   const double distance = number_in<double>(variant);
-  const scene::Camera camera = looking(distance * oblique(), {0, 0, 0}, fov_of(5, distance));
+  const scene::Camera camera =
+      camera_looking_at(distance * oblique(), {0, 0, 0}, fov_of(5, distance));
   StressMaker maker(colour, camera, larger_side, larger_side);
   maker.add({0, 0, 0}, 1);
   maker.add(1.7 * camera.right() + 1.1 * camera.up, 0.6);
@@ -48,7 +49,7 @@ StressScene stress_far(std::string_view variant, scene::ColourKind colour) {
 }
 
 StressScene stress_giant(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({1, 2, 7}, {0, 0, 0}, 60), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({1, 2, 7}, {0, 0, 0}, 60), stress_side, stress_side);
   maker.add({0, 0, 0}, 1);
   maker.add({0, -10001, 0}, 10000);
   maker.add({2.5, 0, -1}, 1);
@@ -59,8 +60,8 @@ StressScene stress_inside(std::string_view variant, scene::ColourKind colour) {
   glm::dvec3 eye{0, 0, 0};
   if (variant == "off_centre") eye = {0.3, 0.2, 0.1};
   if (variant == "under_surface") eye = 0.9999 * oblique();
-  StressMaker maker(colour, looking(eye, eye + glm::dvec3{0.7, 0.2, -2.1}, 90), stress_side,
-                    stress_side);
+  StressMaker maker(colour, camera_looking_at(eye, eye + glm::dvec3{0.7, 0.2, -2.1}, 90),
+                    stress_side, stress_side);
   add_pair(maker);
   maker.add({0.5, 0.15, -0.6}, 0.15);  // also inside the large sphere, in front of its shell
   maker.add({0.9, 0.3, -2.5}, 0.8);    // outside, hidden by the shell
@@ -73,7 +74,7 @@ StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) 
   const double distance = number_in<double>(variant);
   const glm::dvec3 up = oblique();
   const glm::dvec3 ahead = glm::normalize(glm::cross(up, glm::dvec3{0, 1, 0}));
-  scene::Camera camera = looking(distance * up, distance * up + ahead, 100);
+  scene::Camera camera = camera_looking_at(distance * up, distance * up + ahead, 100);
   camera.up = up;
   StressMaker maker(colour, camera, stress_side, stress_side);
   maker.add({0, 0, 0}, 1);
@@ -87,7 +88,8 @@ StressScene stress_skimming(std::string_view variant, scene::ColourKind colour) 
 }
 
 StressScene stress_near_plane(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, 110), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({0, 0, 0}, {0, 0, -1}, 110), stress_side,
+                    stress_side);
   maker.add({1.3, 0.2, -0.1}, 1);
   maker.add({-0.9, -0.5, -0.3}, 0.7);
   maker.add({0.1, 1.2, -0.4}, 0.8);
@@ -97,7 +99,8 @@ StressScene stress_near_plane(std::string_view, scene::ColourKind colour) {
 }
 
 StressScene stress_behind(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 0}, {0, 0, -1}, 150), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({0, 0, 0}, {0, 0, -1}, 150), stress_side,
+                    stress_side);
   maker.add({1.5, 0.1, 0.3}, 1.4);
   maker.add({-0.5, -1.2, 0.2}, 1.1);
   maker.add({0.2, 0.1, 3}, 2.5);  // completely behind the eye
@@ -106,7 +109,8 @@ StressScene stress_behind(std::string_view, scene::ColourKind colour) {
 }
 
 StressScene stress_wide(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0.3, 0.2, 0.1}, {-1, 0.4, -2}, 150), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({0.3, 0.2, 0.1}, {-1, 0.4, -2}, 150), stress_side,
+                    stress_side);
   for (const double x : {7.0, stress_side - 5.0}) {
     for (const double y : {6.0, stress_side - 8.0}) maker.add_at(x, y, 1, 6);
   }
@@ -118,7 +122,7 @@ StressScene stress_wide(std::string_view, scene::ColourKind colour) {
 // more spheres have their centres outside the image: one of them reaches one pixel into the image,
 // and the other one ends one pixel before its edge.
 StressScene stress_edges(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({2, 1, 4}, {0, 0, 0}, 50), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({2, 1, 4}, {0, 0, 0}, 50), stress_side, stress_side);
   for (const double x : {0.0, stress_side / 2.0, 1.0 * stress_side}) {
     for (const double y : {0.0, stress_side / 2.0, 1.0 * stress_side})
       maker.add_at(x, y, 3 + 0.01 * x, 9);
@@ -132,7 +136,7 @@ StressScene stress_edges(std::string_view, scene::ColourKind colour) {
 // eighth row are visible. All other spheres are about four pixels away from them, on pixel corners,
 // where no ray hits them.
 StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking(oblique(), {0, 0, 0}, 60), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at(oblique(), {0, 0, 0}, 60), stress_side, stress_side);
   for (int y = 4; y < stress_side; y += 8) {
     for (int x = 4; x < stress_side; x += 8) {
       maker.add_at(x + 0.5, y + 0.5, 1, 0.01);
@@ -145,7 +149,8 @@ StressScene stress_subpixel(std::string_view, scene::ColourKind colour) {
 // Seven spheres of the same apparent size, because their radii are proportional to their distances.
 // Each sphere overlaps the next sphere, which is ten times as far away.
 StressScene stress_depth_range(std::string_view, scene::ColourKind colour) {
-  StressMaker maker(colour, looking({0, 0, 0}, {0.3, -0.1, -1}, 60), stress_side, stress_side);
+  StressMaker maker(colour, camera_looking_at({0, 0, 0}, {0.3, -0.1, -1}, 60), stress_side,
+                    stress_side);
   double depth = 1e-3;
   for (int i = 0; i < 7; ++i, depth *= 10) {
     maker.add_at(14 + 11.3 * i, 46 + (i % 2 == 0 ? 3.7 : -2.9), depth, 12);

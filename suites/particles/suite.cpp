@@ -97,21 +97,21 @@ class ParticleSuite final : public measure::SuiteWithTruth, public measure::Expe
   // The most recently loaded particle set, with the data that belong to it. It is cached because
   // successive configurations of a plan usually use the same set.
   struct Loaded {
-    std::string what;
+    std::string key;
     std::shared_ptr<const scene::ParticleSet> particles;
     // The stress scene without its particles, which were moved to `particles`.
-    std::optional<StressScene> own;
+    std::optional<StressScene> stress;
   };
 
   void load(const Configuration& configuration);
   // Returns the loaded stress scene, which has its own camera and viewport. Throws InputError if
   // other data are loaded.
-  [[nodiscard]] const StressScene& own(std::string_view factor) const;
+  [[nodiscard]] const StressScene& own_values(std::string_view factor) const;
   [[nodiscard]] scene::Camera camera(const Configuration& configuration) const;
   [[nodiscard]] scene::ParticleScene scene(const Configuration& configuration);
   // Returns a string that identifies everything that affects the image except for the factors and
   // the particles.
-  [[nodiscard]] std::string beside_factors(const Configuration& configuration);
+  [[nodiscard]] std::string key_without_factors(const Configuration& configuration);
 
   std::vector<std::filesystem::path> folders_;
   Loaded loaded_;
@@ -140,15 +140,15 @@ std::string ParticleSuite::missing_data(const Configuration& configuration) cons
 
 void ParticleSuite::load(const Configuration& configuration) {
   const std::string wanted = configuration.at("colour") + " " + configuration.at("data");
-  if (loaded_.what == wanted) return;
+  if (loaded_.key == wanted) return;
   loaded_ = {};  // frees the old set before the new one is loaded
   const std::string& data = configuration.at("data");
   const scene::ColourKind colour = scene::colour_kind(configuration.at("colour"));
   tell({.what = data, .share = 0});
   if (const auto stress = stress_data(data)) {
-    loaded_.own = stress_scene(*stress, colour);
+    loaded_.stress = stress_scene(*stress, colour);
     loaded_.particles =
-        std::make_shared<const scene::ParticleSet>(std::move(loaded_.own->particles));
+        std::make_shared<const scene::ParticleSet>(std::move(loaded_.stress->particles));
   } else {
     loaded_.particles = std::make_shared<const scene::ParticleSet>(scene::load_particles(
         data, colour, folders_, [&](double share) { tell({.what = data, .share = share}); }));
@@ -157,11 +157,11 @@ void ParticleSuite::load(const Configuration& configuration) {
     tell({.what = data, .share = 1, .note = note});
   }
   tell({.what = data, .share = 1});
-  loaded_.what = wanted;
+  loaded_.key = wanted;
 }
 
-const StressScene& ParticleSuite::own(std::string_view factor) const {
-  if (loaded_.own) return *loaded_.own;
+const StressScene& ParticleSuite::own_values(std::string_view factor) const {
+  if (loaded_.stress) return *loaded_.stress;
   throw core::InputError(fmt::format("{}: level 'own' requires data=stress:CASE, found data={}",
                                      factor, loaded_.particles->name));
 }
@@ -171,9 +171,9 @@ scene::Camera ParticleSuite::camera(const Configuration& configuration) const {
   if (configuration.at("camera") != own_level) {
     return scene::particle_camera(
         configuration.at("camera"), *loaded_.particles,
-        own_fov ? own("fov").camera.fov_y_deg : as_number(configuration, "fov"));
+        own_fov ? own_values("fov").camera.fov_y_deg : as_number(configuration, "fov"));
   }
-  scene::Camera camera = own("camera").camera;
+  scene::Camera camera = own_values("camera").camera;
   if (!own_fov) camera.fov_y_deg = as_number(configuration, "fov");
   return camera;
 }
@@ -181,9 +181,9 @@ scene::Camera ParticleSuite::camera(const Configuration& configuration) const {
 scene::ParticleScene ParticleSuite::scene(const Configuration& configuration) {
   load(configuration);
   const bool own_viewport = configuration.at("viewport") == own_level;
-  const auto [width, height] = own_viewport
-                                   ? std::array{own("viewport").width, own("viewport").height}
-                                   : measure::parse_viewport(configuration.at("viewport"));
+  const auto [width, height] =
+      own_viewport ? std::array{own_values("viewport").width, own_values("viewport").height}
+                   : measure::parse_viewport(configuration.at("viewport"));
   return {
       .particles = loaded_.particles,
       .intensity_colours =
@@ -206,8 +206,8 @@ measure::Work ParticleSuite::work(Configuration& configuration, const measure::D
           .culling = technique::culling(configuration.at("culling")),
           .structure = technique::structure(configuration.at("structure")),
       }};
-  if (loaded_.own && configuration.at("camera") == own_level) {
-    work.camera_before = loaded_.own->camera_before;
+  if (loaded_.stress && configuration.at("camera") == own_level) {
+    work.camera_before = loaded_.stress->camera_before;
   }
   return {.technique = configuration.at("technique"), .scene = std::move(work)};
 }
@@ -244,7 +244,7 @@ std::string ParticleSuite::truth_key(const Configuration& configuration,
                                      .add(model.colour_relative)
                                      .hash();
   return fmt::format("spheres {} data {} model {}{}", reference::spheres_version,
-                     drawn.particles->hash, model_hash, beside_factors(configuration));
+                     drawn.particles->hash, model_hash, key_without_factors(configuration));
 }
 
 // Counters may differ between devices for two reasons. A device with a limited point size draws
@@ -254,8 +254,8 @@ std::map<std::string, double> ParticleSuite::open_counts(
     const Configuration& configuration, const std::map<std::string, double>& precision) {
   std::map<std::string, double> open;
   if (const auto largest = precision.find("largest_point"); largest != precision.end()) {
-    open = open_by_quads(scene(configuration), largest->second,
-                         configuration.at("culling") == "occlusion");
+    open = open_counts_of_quads(scene(configuration), largest->second,
+                                configuration.at("culling") == "occlusion");
   }
   const auto bits = precision.find("sub_pixel_bits");
   if (bits == precision.end()) return open;
@@ -266,7 +266,7 @@ std::map<std::string, double> ParticleSuite::open_counts(
   return open;
 }
 
-std::string ParticleSuite::beside_factors(const Configuration& configuration) {
+std::string ParticleSuite::key_without_factors(const Configuration& configuration) {
   std::string text;
   const std::string table = scene::file_table_hash(scene(configuration).intensity_colours);
   if (!table.empty()) text += " table " + table;
@@ -299,7 +299,7 @@ std::string ParticleSuite::limit_key(const Configuration& configuration) {
       reference::spheres_version, configuration.at("data"), scene(configuration).particles->hash,
       configuration.at("colour"), configuration.at("transfer_function"),
       configuration.at("radius_scale"), configuration.at("camera"), configuration.at("fov"),
-      configuration.at("viewport"), beside_factors(configuration));
+      configuration.at("viewport"), key_without_factors(configuration));
 }
 
 // A pixel shows the surface on the ray through its centre. There is no sampling that could be

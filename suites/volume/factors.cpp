@@ -21,7 +21,7 @@ using measure::text;
 
 // Marks a factor that was added after the first scenes had been stored. The names of scenes omit
 // this factor if it has its default level, so that the names of stored scenes stay valid.
-Factor silent(Factor factor) {
+Factor with_silent_default(Factor factor) {
   factor.silent_default = true;
   return factor;
 }
@@ -47,17 +47,19 @@ const std::vector<Factor>& volume_factors() {
           "how voxels are interpolated: by the hardware sampler, by the kernel (manual), or by the "
           "kernel from packed cells of eight voxels; auto: the fastest combination of the "
           "factors voxel and sampler that is exact on the device"),
-      silent(text("window", "full",
-                  "the range of values that the transfer function spans: full, or LOW..HIGH in the "
-                  "data's units or percentiles (p1..p99, 0..p99.5); values outside are clamped")),
-      silent(choice(
+      with_silent_default(
+          text("window", "full",
+               "the range of values that the transfer function spans: full, or LOW..HIGH in the "
+               "data's units or percentiles (p1..p99, 0..p99.5); values outside are clamped")),
+      with_silent_default(choice(
           "mapping", {"linear", "log"}, "linear", Decides::the_image,
           "how values in the window are mapped to the transfer function: linearly, or by their "
           "logarithm (log), with values below the smallest positive value mapped to 0")),
-      silent(text("component", "0",
-                  "the component to draw if the data have several values per voxel, such as "
-                  "colours, vectors or time steps: a 0-based index, or magnitude for the "
-                  "Euclidean norm of all components")),
+      with_silent_default(
+          text("component", "0",
+               "the component to draw if the data have several values per voxel, such as "
+               "colours, vectors or time steps: a 0-based index, or magnitude for the "
+               "Euclidean norm of all components")),
       text("transfer_function", "haze",
            "the transfer function, which maps values to colours and opacities: the preset haze or "
            "surfaces, or a file with 256 RGBA entries; own: the transfer function of the analytic "

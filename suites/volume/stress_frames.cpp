@@ -24,7 +24,7 @@ double fov_of_rows(int height, int rows) {
 StressScene stress_shape(std::string_view variant) {
   constexpr int columns = 17;
   constexpr int rows = 13;
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   scene.width = variant.starts_with("17x") ? columns : 1;
   scene.height = variant.ends_with("x13") ? rows : 1;
   scene.camera.fov_y_deg = fov_of_rows(scene.height, rows);
@@ -41,7 +41,7 @@ StressScene stress_shape(std::string_view variant) {
 // The first variant is as wide as the widest image that today's devices can draw, and the second is
 // one pixel wider.
 StressScene stress_widest(std::string_view variant) {
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   scene.width = variant == "16384" ? 16384 : 16385;
   scene.height = 1;
   scene.camera.fov_y_deg = fov_of_rows(1, scene.width);
@@ -53,22 +53,22 @@ StressScene stress_widest(std::string_view variant) {
 }
 
 StressScene stress_field_of_view(std::string_view variant) {
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   if (variant == "widest") {
     // The camera is just in front of a face, so that all rays except for the middle ones run almost
     // parallel to this face.
-    scene.camera = looking({12, 11, 24.5}, {11.5, 11, 0}, 179);
+    scene.camera = camera_looking_at({12, 11, 24.5}, {11.5, 11, 0}, 179);
     scene.function.entries[0][3] = 0.1F;
     return scene;
   }
   // The image covers only a thousandth of a voxel, in a region where the field is steep.
-  scene.camera = looking({31, 33, 41}, {9.25, 16.5, 12.75}, 0.001);
+  scene.camera = camera_looking_at({31, 33, 41}, {9.25, 16.5, 12.75}, 0.001);
   return scene;
 }
 
 StressScene stress_asymmetric(std::string_view /*variant*/) {
-  StressScene scene = lopsided_scene();
-  scene.camera = looking({12, 14, 62}, {12, 12, 12}, 34);
+  StressScene scene = asymmetric_scene();
+  scene.camera = camera_looking_at({12, 14, 62}, {12, 12, 12}, 34);
   scene.width = 40;
   scene.height = 32;
   return scene;

@@ -42,15 +42,15 @@ scene::Volume volume_of(const Size& size, const Voxel& voxel) {
   return volume;
 }
 
-double lopsided(const Size& size, int i, int j, int k) {
+double asymmetric_value(const Size& size, int i, int j, int k) {
   const glm::dvec3 p{(i + 0.5) / size[0], (j + 0.5) / size[1], (k + 0.5) / size[2]};
   const double value =
       0.95 * blob(p, {0.31, 0.64, 0.42}, 0.42) + 0.6 * blob(p, {0.75, 0.27, 0.7}, 0.3);
   return std::min(value, 0.95);
 }
 
-scene::Volume lopsided_volume(const Size& size) {
-  return volume_of(size, [&](int i, int j, int k) { return lopsided(size, i, j, k); });
+scene::Volume asymmetric_volume(const Size& size) {
+  return volume_of(size, [&](int i, int j, int k) { return asymmetric_value(size, i, j, k); });
 }
 
 scene::TransferFunction uniform(const std::array<float, 4>& rgba) {
@@ -84,7 +84,7 @@ scene::Camera along(const glm::dvec3& eye, const glm::dvec3& forward, const glm:
 scene::Camera from_outside(const scene::Volume& volume) {
   const glm::dvec3 extent = extent_of(volume);
   const glm::dvec3 centre = extent * 0.5;
-  return looking(centre + glm::length(extent) * glm::dvec3(0.75, 0.5, 1), centre, 50);
+  return camera_looking_at(centre + glm::length(extent) * glm::dvec3(0.75, 0.5, 1), centre, 50);
 }
 
 StressScene seen_from_outside(scene::Volume volume) {
@@ -95,8 +95,8 @@ StressScene seen_from_outside(scene::Volume volume) {
   return scene;
 }
 
-StressScene lopsided_scene() {
-  return seen_from_outside(lopsided_volume({24, 24, 24}));
+StressScene asymmetric_scene() {
+  return seen_from_outside(asymmetric_volume({24, 24, 24}));
 }
 
 record::Expectation same_bits_as(const std::string& data, std::string what) {

@@ -19,8 +19,8 @@ using Voxel = std::function<double(int i, int j, int k)>;
 
 // A field with two blobs of different size and height, without any symmetry. Its values are 0…0.95,
 // and about half of the volume is exactly 0.
-[[nodiscard]] double lopsided(const Size& size, int i, int j, int k);
-[[nodiscard]] scene::Volume lopsided_volume(const Size& size);
+[[nodiscard]] double asymmetric_value(const Size& size, int i, int j, int k);
+[[nodiscard]] scene::Volume asymmetric_volume(const Size& size);
 
 // Returns a transfer function whose entries all have this colour and opacity.
 [[nodiscard]] scene::TransferFunction uniform(const std::array<float, 4>& rgba);
@@ -28,7 +28,7 @@ using Voxel = std::function<double(int i, int j, int k)>;
 // grows to `most` at the last entry. The colour changes from blue to orange.
 [[nodiscard]] scene::TransferFunction ramp(int first, double most);
 
-using scene::looking;
+using scene::camera_looking_at;
 // Returns a camera that looks along an axis. It is exact, because all components of forward and up
 // are 0 or ±1.
 [[nodiscard]] scene::Camera along(const glm::dvec3& eye, const glm::dvec3& forward,
@@ -38,8 +38,8 @@ using scene::looking;
 
 // Returns a scene with this volume and ramp(20, 0.4), seen from outside.
 [[nodiscard]] StressScene seen_from_outside(scene::Volume volume);
-// Returns seen_from_outside() for the lopsided field, in a volume of 24³ voxels.
-[[nodiscard]] StressScene lopsided_scene();
+// Returns seen_from_outside() for the asymmetric field, in a volume of 24³ voxels.
+[[nodiscard]] StressScene asymmetric_scene();
 
 // These functions return the expectation that the image matches the image of another variant of the
 // stress case. The parameter `data` is the name of that variant in a plan ("stress:CASE:VARIANT"),

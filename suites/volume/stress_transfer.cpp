@@ -22,8 +22,8 @@ std::array<float, 4> orange_of(double opacity) {
 }
 
 StressScene from_within(const scene::TransferFunction& function) {
-  StressScene scene = lopsided_scene();
-  scene.camera = looking({11.5, 12.25, 13}, {20, 15, 2}, 90);
+  StressScene scene = asymmetric_scene();
+  scene.camera = camera_looking_at({11.5, 12.25, 13}, {20, 15, 2}, 90);
   scene.function = function;
   return scene;
 }
@@ -42,10 +42,10 @@ record::Expectation every_sample(double least_length, double step_voxels) {
 // Returns a scene with a cube of 4³ voxels, seen approximately along its z axis, in an image with
 // few rays and many samples along each ray.
 StressScene marched(double step_voxels, int pixels) {
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   scene.volume = volume_of(
       {4, 4, 4}, [](int i, int j, int k) { return 0.25 + 0.125 * i + 0.0625 * j + 0.03125 * k; });
-  scene.camera = looking({2, 2.25, 3.875}, {2.125, 1.875, 0}, 30);
+  scene.camera = camera_looking_at({2, 2.25, 3.875}, {2.125, 1.875, 0}, 30);
   scene.width = scene.height = pixels;
   scene.step_voxels = step_voxels;
   scene.expectations = {every_sample(3.875, step_voxels)};
@@ -69,7 +69,7 @@ StressScene stress_solid(std::string_view /*variant*/) {
 // with square roots for 1/8 voxel (`root`), by squaring for 2 voxels (`square`), and with a
 // logarithm and an exponential for any other length.
 StressScene stress_nearly_solid(std::string_view variant) {
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   scene.function = uniform(orange_of(0x1.fffffep-1));
   scene.step_voxels = variant == "root" ? 0.125 : variant == "square" ? 2 : 0.7;
   return scene;
@@ -94,7 +94,7 @@ StressScene stress_march(std::string_view variant) {
 // the whole chord. The sample is in the middle of the step, outside the box, where the field is
 // constant.
 StressScene stress_stride(std::string_view variant) {
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   scene.function = ramp(0, 0.1);
   scene.function.entries[0][3] = 0.05F;
   scene.step_voxels = variant == "twice" ? 96 : 30000;
@@ -106,7 +106,7 @@ StressScene stress_stride(std::string_view variant) {
 // Only one entry of 256 is visible. Where the field is steep, a ray passes this entry within 0.4
 // steps.
 StressScene stress_spike(std::string_view variant) {
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   scene.function = uniform(orange_of(0));
   scene.function.entries[variant == "low" ? 30 : 128][3] = 0.9F;
   scene.step_voxels = 2;
@@ -119,7 +119,7 @@ StressScene stress_spike(std::string_view variant) {
 StressScene stress_end_spike(std::string_view variant) {
   const bool first = variant == "first";
   StressScene scene = seen_from_outside(volume_of({16, 16, 16}, [first](int i, int j, int k) {
-    const double v = std::min(1.5 * lopsided({16, 16, 16}, i, j, k), 1.0);
+    const double v = std::min(1.5 * asymmetric_value({16, 16, 16}, i, j, k), 1.0);
     return first ? 1 - v : v;
   }));
   scene.function = uniform(orange_of(0));
@@ -144,7 +144,7 @@ StressScene stress_edit(std::string_view variant) {
   std::uint64_t seed = 0;
   std::from_chars(variant.data(), variant.data() + variant.size(), seed);
   core::Random random(seed);
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   scene.function = uniform({0, 0, 0, 0});
   const int runs = 1 + static_cast<int>(random.uniform() * 4);
   for (int run = 0; run < runs; ++run) {
@@ -160,7 +160,7 @@ StressScene stress_edit(std::string_view variant) {
 }
 
 StressScene stress_transparent(std::string_view /*variant*/) {
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   scene.function = uniform({1, 1, 1, 0});
   scene.expectations = {{"exactly the background, because nothing is added to 0",
                          record::OneColour{scene.background}}};
@@ -174,7 +174,7 @@ StressScene stress_transparent(std::string_view /*variant*/) {
 }
 
 StressScene stress_opaque(std::string_view /*variant*/) {
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   scene.function = uniform(orange);
   scene.ert = 1.0 / 512;
   scene.expectations = {{"at most two samples per ray, because the first one is opaque",

@@ -24,14 +24,14 @@ void store(scene::Volume& volume, scene::ScalarType type, double scale) {
   }
 }
 
-// Returns a scene in which a block of voxels in the bright blob of the lopsided field has the value
-// `value`.
+// Returns a scene in which a block of voxels in the bright blob of the asymmetric field has the
+// value `value`.
 StressScene with_block(double value, int extent) {
   const Size size{24, 24, 24};
   return seen_from_outside(volume_of(size, [&](int i, int j, int k) {
     const bool inside =
         i >= 7 && i < 7 + extent && j >= 14 && j < 14 + extent && k >= 9 && k < 9 + extent;
-    return inside ? value : lopsided(size, i, j, k);
+    return inside ? value : asymmetric_value(size, i, j, k);
   }));
 }
 
@@ -39,7 +39,7 @@ StressScene with_block(double value, int extent) {
 StressScene with_every_second(double value) {
   const Size size{24, 24, 24};
   return seen_from_outside(volume_of(size, [&](int i, int j, int k) {
-    return (i + j + k) % 2 == 1 ? value : lopsided(size, i, j, k);
+    return (i + j + k) % 2 == 1 ? value : asymmetric_value(size, i, j, k);
   }));
 }
 
@@ -50,7 +50,7 @@ StressScene with_every_second(double value) {
 StressScene stress_format(std::string_view variant) {
   const Size size{24, 24, 24};
   const auto byte = [&](int i, int j, int k) {
-    return std::floor(lopsided(size, i, j, k) * 255 + 0.5);
+    return std::floor(asymmetric_value(size, i, j, k) * 255 + 0.5);
   };
   StressScene scene = seen_from_outside(volume_of(size, byte));
   scene.volume.range_hi = 255;
@@ -108,12 +108,12 @@ StressScene stress_denormal(std::string_view variant) {
   if (variant == "voxels") {
     const Size size{24, 24, 24};
     StressScene scene = seen_from_outside(volume_of(size, [&](int i, int j, int k) {
-      return i < 12 ? tiny * (1 + j) : lopsided(size, i, j, k);
+      return i < 12 ? tiny * (1 + j) : asymmetric_value(size, i, j, k);
     }));
     scene.function = uniform({0.75F, 0.5F, 0.25F, 0.03F});
     return scene;
   }
-  StressScene scene = lopsided_scene();
+  StressScene scene = asymmetric_scene();
   if (variant == "opacity") {
     scene.function = ramp(20, 0.4);
     for (std::size_t entry = 0; entry < 60; ++entry) scene.function.entries[entry][3] = 1e-40F;
@@ -133,7 +133,7 @@ StressScene stress_halves(std::string_view variant) {
   const Size size{24, 24, 24};
   if (variant == "subnormal") {
     StressScene scene = seen_from_outside(volume_of(size, [&](int i, int j, int k) {
-      return i < 12 ? 0x1.0p-31 * (1 + j) : lopsided(size, i, j, k);
+      return i < 12 ? 0x1.0p-31 * (1 + j) : asymmetric_value(size, i, j, k);
     }));
     scene.function = uniform({0.75F, 0.5F, 0.25F, 0.03F});
     return scene;
@@ -142,7 +142,7 @@ StressScene stress_halves(std::string_view variant) {
   const double step = largest ? 32 : 1;
   const double most = largest ? 65504 : 65535;
   StressScene scene = seen_from_outside(volume_of(size, [&](int i, int j, int k) {
-    const double x = lopsided(size, i, j, k);
+    const double x = asymmetric_value(size, i, j, k);
     return x > 0.9 ? most : std::floor(x * most / step) * step;
   }));
   store<std::uint16_t>(scene.volume, scene::ScalarType::u16, 1);
@@ -180,7 +180,7 @@ StressScene stress_lit(std::string_view variant) {
   }));
   scene.function = ramp(1, 0.99);
   const glm::dvec3 target(lit[0] + 0.5, lit[1] + 0.5, lit[2] + 0.5);
-  scene.camera = looking(target + glm::dvec3(9, 14, 22), target, 12);
+  scene.camera = camera_looking_at(target + glm::dvec3(9, 14, 22), target, 12);
   return scene;
 }
 

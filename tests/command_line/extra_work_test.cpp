@@ -12,7 +12,7 @@
 
 #include "program.hpp"
 #include "record/store.hpp"
-#include "tests/support/everything.hpp"
+#include "tests/support/exhaustive_run.hpp"
 
 namespace triptych::command_line {
 namespace {
@@ -70,7 +70,7 @@ class ExtraWork : public testing::TestWithParam<const char*> {
 // Vulkan and OpenGL share the source code of their shaders, so Vulkan is counted only in the
 // nightly run.
 TEST_P(ExtraWork, IsDoneByEveryTechnique) {
-  if (std::string_view(GetParam()).starts_with("vulkan") && !test::everything())
+  if (std::string_view(GetParam()).starts_with("vulkan") && !test::is_exhaustive_run())
     GTEST_SKIP() << "counted only if TRIPTYCH_EVERY_DEVICE is set";
   auto counted = device_code(volumes);
   if (counted.empty() && !HasFailure())

@@ -90,7 +90,7 @@ TEST(CountedAsTimed, SamplesOnBrickFacesAreCountedAsDrawn) {
         SCOPED_TRACE(ahead.x > 0 ? direction : 3 * direction);
         const glm::dvec3 target(20, 20, 20);
         std::get<VolumeWork>(work.scene).scene.camera =
-            scene::looking(target - 128 * direction * ahead, target, 60);
+            scene::camera_looking_at(target - 128 * direction * ahead, target, 60);
         expect_sum_as_counted(device, work);
       }
     }
@@ -109,7 +109,7 @@ struct Tally {
 };
 
 Tally tally_of(const core::Image& image, double alpha, double step_voxels, double ert) {
-  constexpr double next_to_nothing = 1e-3;
+  constexpr double negligible = 1e-3;
   const double per_step = step_voxels * std::log1p(-alpha);
   Tally tally;
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
@@ -117,10 +117,10 @@ Tally tally_of(const core::Image& image, double alpha, double step_voxels, doubl
     if (left == 1) continue;
     tally.rays_hit += 1;
     const double steps = std::log(left) / per_step;
-    tally.samples += static_cast<std::uint64_t>(std::ceil(steps - next_to_nothing));
+    tally.samples += static_cast<std::uint64_t>(std::ceil(steps - negligible));
     if (left < ert) {
       tally.terminated += 1;
-    } else if (std::abs(steps - std::round(steps)) < next_to_nothing) {
+    } else if (std::abs(steps - std::round(steps)) < negligible) {
       tally.doubtful += 1;
     }
   }
@@ -197,7 +197,7 @@ TEST(CountedAsTimed, BothBuildsDrawTheSameVolumeImage) {
 // With the injected fault `wrong_sense`, a shader violates its declaration of conservative depth,
 // so the image reveals which fragments were rejected early. The counting build must reject the same
 // fragments as the timed build. Images without the fault are compared only in the nightly run
-// (everything()), or if the fault cannot be injected into the technique.
+// (is_exhaustive_run()), or if the fault cannot be injected into the technique.
 TEST(CountedAsTimed, BothBuildsRejectTheSameFragmentsEarly) {
   on_every_driver([](measure::Device& device) {
     ParticleWork work = studded_wall();
@@ -208,7 +208,7 @@ TEST(CountedAsTimed, BothBuildsRejectTheSameFragmentsEarly) {
         measure::inject("wrong_sense", faulty);
         const bool rejects = !device.unsupported(faulty);
         if (rejects) expect_same_image(device, faulty);
-        if (everything() || (conservative && !rejects)) expect_same_image(device, whole);
+        if (is_exhaustive_run() || (conservative && !rejects)) expect_same_image(device, whole);
       });
     }
   });

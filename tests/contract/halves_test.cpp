@@ -31,7 +31,7 @@ measure::Work work_of(const char* data, VoxelFormat format, Sampler sampler) {
 // Tests float and 16-bit integer volumes with both techniques and every sampler.
 TEST(Halves, StayWithinTheBoundOfTheRoundedData) {
   on_every_driver([](measure::Device& device) {
-    double unpaid = 0;
+    double without_term = 0;
     for (const char* data : {"marschner_lobb", "nested_shells"}) {
       for (const Sampler sampler : {Sampler::hardware, Sampler::manual, Sampler::packed}) {
         for (const char* technique : {"raycast", "raycast_fragment"}) {
@@ -58,12 +58,12 @@ TEST(Halves, StayWithinTheBoundOfTheRoundedData) {
             };
             EXPECT_LE(share(), 1);
             path.voxel_rounding = 0;
-            unpaid = std::max(unpaid, share());
+            without_term = std::max(without_term, share());
           }
         }
       }
     }
-    EXPECT_GT(unpaid, 1);  // images exceed a bound that ignores the rounding of voxels
+    EXPECT_GT(without_term, 1);  // images exceed a bound that ignores the rounding of voxels
   });
 }
 
@@ -102,18 +102,18 @@ TEST(Halves, OfBytesGiveTheSameImageAndCounts) {
 
 TEST(Halves, NeedHalfTheMemoryOfFloats) {
   on_every_driver([](measure::Device& device) {
-    const auto bytes_held = [&](VoxelFormat format) {
+    const auto bytes_used = [&](VoxelFormat format) {
       const auto prepared = device.prepare(work_of("marschner_lobb", format, Sampler::manual));
-      std::uint64_t held = 0;
-      for (const auto& [name, bytes] : device.memory()) held += bytes;
-      return held;
+      std::uint64_t total = 0;
+      for (const auto& [name, bytes] : device.memory()) total += bytes;
+      return total;
     };
     const auto voxels = [](int border) {
       return static_cast<std::uint64_t>(volume_size[0] + border) *
              static_cast<std::uint64_t>(volume_size[1] + border) *
              static_cast<std::uint64_t>(volume_size[2] + border);
     };
-    const std::uint64_t saved = bytes_held(VoxelFormat::f32) - bytes_held(VoxelFormat::f16);
+    const std::uint64_t saved = bytes_used(VoxelFormat::f32) - bytes_used(VoxelFormat::f16);
     const std::uint64_t expected = 2 * voxels(device.info().api == "opencl" ? 2 : 0);
     if (device.info().api == "vulkan") {  // memory use includes the padding of the image's rows
       EXPECT_NEAR(static_cast<double>(saved), static_cast<double>(expected),

@@ -87,7 +87,7 @@ ParticleWork covered_crowd(int crowd) {
     spheres.push_back(
         {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-12, -6), 3});
   }
-  return particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 10), 64, 64);
+  return particle_work(particles_of(spheres), camera_looking_at({0, 0, 5}, {0, 0, 0}, 10), 64, 64);
 }
 
 // Rays traverse the tree of boxes in beams (bundles) of at least 8 pixels. A beam must skip all

@@ -56,12 +56,12 @@ TEST(ParticleFaults, TheWrongSenseIsFoundWhereFragmentsAreRejectedEarly) {
     const reference::SphereTruth truth = truth_of(work);
     for (const char* technique : {"tiles", "bvh", "quad_instanced"}) {
       SCOPED_TRACE(technique);
-      const bool ours =
+      const bool rejects_in_own_code =
           std::string_view(technique) != "quad_instanced" || device.info().api == "opencl";
       measure::Work faulty{.technique = technique, .scene = work};
       expect_true(draw(device, faulty), truth);
       measure::inject("wrong_sense", faulty);
-      if (!ours || device.unsupported(faulty)) continue;
+      if (!rejects_in_own_code || device.unsupported(faulty)) continue;
       EXPECT_FALSE(accuracy::compare(draw(device, faulty), truth.image(), truth.bound_image())
                        .within_bound());
     }

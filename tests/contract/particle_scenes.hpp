@@ -41,7 +41,7 @@ inline scene::ParticleSet particles_of(const std::vector<std::array<double, 4>>&
   return set;
 }
 
-using scene::looking;
+using scene::camera_looking_at;
 
 inline ParticleWork particle_work(scene::ParticleSet set, const scene::Camera& camera, int width,
                                   int height) {
@@ -77,7 +77,7 @@ inline ParticleWork studded_wall() {
   for (int i = 0; i < 20000; ++i) {
     spheres.push_back({random.uniform(-4, 4), random.uniform(-4, 4), 0, 0.1});
   }
-  return particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 60), 96, 96);
+  return particle_work(particles_of(spheres), camera_looking_at({0, 0, 5}, {0, 0, 0}, 60), 96, 96);
 }
 
 // Checks the colours, and every id and depth that the reference renderer can determine with

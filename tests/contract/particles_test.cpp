@@ -31,27 +31,30 @@ struct View {
 // Returns views of a sphere of radius 1 at the origin with a small neighbour, from all kinds of
 // positions in which common sprite methods lose pixels.
 std::vector<View> difficult_views() {
-  const std::vector<std::array<double, 4>> one{{0, 0, 0, 1}, {1.2, 0.3, 0.1, 0.2}};
+  const std::vector<std::array<double, 4>> spheres{{0, 0, 0, 1}, {1.2, 0.3, 0.1, 0.2}};
   const glm::dvec3 side = glm::normalize(glm::dvec3{1, 0.5, 2});
   std::vector<View> views;
   for (const double distance : {1.0001, 1.25, 2.0, 1e5}) {
     const double fov =
         distance > 1e3 ? 4 / distance * 180 / 3.14159265358979 : (distance > 1.5 ? 75 : 120);
-    views.push_back(
-        {fmt::format("at {} radii", distance), one, looking(distance * side, {0, 0, 0}, fov)});
+    views.push_back({fmt::format("at {} radii", distance), spheres,
+                     camera_looking_at(distance * side, {0, 0, 0}, fov)});
   }
-  views.push_back({"inside", one, looking({0.3, 0.2, 0.1}, {1, 0.4, -2}, 90)});
-  views.push_back({"across the eye's plane", one, looking({0, 0, 1.3}, {2, 0.3, 1.3}, 100)});
-  views.push_back({"centre behind the eye", one, looking({1.05, 0, 0.2}, {1.3, 0.1, 1.2}, 150)});
-  views.push_back({"at the edge of the screen", one, looking({0, 0, 5}, {2.4, 1.9, 0}, 60)});
-  views.push_back({"150 degrees", one, looking({0.4, 0.2, 2}, {1, 1, 0}, 150)});
-  views.push_back({"all behind", one, looking({0, 0, 3}, {0, 0, 5}, 60)});
+  views.push_back({"inside", spheres, camera_looking_at({0.3, 0.2, 0.1}, {1, 0.4, -2}, 90)});
+  views.push_back(
+      {"across the eye's plane", spheres, camera_looking_at({0, 0, 1.3}, {2, 0.3, 1.3}, 100)});
+  views.push_back(
+      {"centre behind the eye", spheres, camera_looking_at({1.05, 0, 0.2}, {1.3, 0.1, 1.2}, 150)});
+  views.push_back(
+      {"at the edge of the screen", spheres, camera_looking_at({0, 0, 5}, {2.4, 1.9, 0}, 60)});
+  views.push_back({"150 degrees", spheres, camera_looking_at({0.4, 0.2, 2}, {1, 1, 0}, 150)});
+  views.push_back({"all behind", spheres, camera_looking_at({0, 0, 3}, {0, 0, 5}, 60)});
   views.push_back({"a neighbour of 10000 radii",
                    {{0, 0, 0, 1}, {0, -10001, 0, 10000}, {2.5, 0, -1, 1}},
-                   looking({1, 2, 7}, {0, 0, 0}, 60)});
+                   camera_looking_at({1, 2, 7}, {0, 0, 0}, 60)});
   views.push_back({"a hundredth of a pixel",
                    {{0, 0, 0, 1e-4}, {0.5, 0.1, 0, 1e-4}, {-0.3, 0.2, 0.2, 0.4}},
-                   looking({0, 0, 2}, {0, 0, 0}, 60)});
+                   camera_looking_at({0, 0, 2}, {0, 0, 0}, 60)});
   return views;
 }
 
@@ -102,10 +105,10 @@ TEST(Particles, RaysComputedAtVerticesAreCorrect) {
     // With ray=vertex, rays are interpolated linearly between the corners of each triangle. If the
     // interpolation of one triangle were used outside that triangle, the error would exceed the
     // bound here.
-    ParticleWork many =
+    ParticleWork many_small =
         generated_work("uniform", 4000, "orbit_y:1/8", 160, scene::ColourKind::intensity);
-    many.options.ray = technique::ComputedAt::vertex;
-    expect_all_true(device, many);
+    many_small.options.ray = technique::ComputedAt::vertex;
+    expect_all_true(device, many_small);
   });
 }
 
@@ -175,7 +178,7 @@ TEST(Particles, ABeamThroughManyEqualSpheresFindsTheFirst) {
   on_every_driver([](measure::Device& device) {
     std::vector<std::array<double, 4>> spheres(60000, {0, 0, 0, 1});
     const ParticleWork work =
-        particle_work(particles_of(spheres), looking({0, 0, 5}, {0, 0, 0}, 60), 8, 8);
+        particle_work(particles_of(spheres), camera_looking_at({0, 0, 5}, {0, 0, 0}, 60), 8, 8);
     for (const char* technique : {"bvh"}) {
       SCOPED_TRACE(technique);
       const measure::Work whole{.technique = technique, .scene = work};
@@ -214,7 +217,7 @@ TEST(Particles, AnyNumberOfParticlesIsDrawn) {
       expect_all_true(device, generated_work("uniform", count, "orbit_y:1/8", 33));
     }
     SCOPED_TRACE("none");
-    expect_all_true(device, particle_work({}, looking({0, 0, 3}, {0, 0, 0}, 60), 33, 17));
+    expect_all_true(device, particle_work({}, camera_looking_at({0, 0, 3}, {0, 0, 0}, 60), 33, 17));
   });
 }
 
@@ -246,7 +249,7 @@ TEST(Particles, RepeatedFramesAreBitIdentical) {
   });
 }
 
-ParticleWork jump_of_the_eye() {
+ParticleWork camera_jump_work() {
   using namespace particles_suite;
   StressScene jump = stress_scene(*stress_data("stress:jump"), scene::ColourKind::rgba8);
   ParticleWork work =
@@ -258,14 +261,14 @@ ParticleWork jump_of_the_eye() {
 
 // In the first frame after the jump, the stored set of hidden cells is completely wrong.
 TEST(Particles, ACameraJumpLeavesNothingStale) {
-  const ParticleWork work = jump_of_the_eye();
+  const ParticleWork work = camera_jump_work();
   on_every_driver([&](measure::Device& device) { expect_all_true(device, work); });
 }
 
 // Counts must describe the state into which frames settle, no matter how many frames were drawn
 // before.
 TEST(Particles, CountsAfterACameraJumpAreThoseOfLaterFrames) {
-  const ParticleWork work = jump_of_the_eye();
+  const ParticleWork work = camera_jump_work();
   on_every_driver([&](measure::Device& device) {
     with_every_technique(device, work, [&](const measure::Work& whole) {
       const auto counted_after = [&](int frames) {
@@ -284,7 +287,7 @@ TEST(Particles, CountsAfterACameraJumpAreThoseOfLaterFrames) {
 // reject it with a reason that contains the requested size.
 TEST(Particles, AnImageBeyondTheLimitsIsRejectedOrDrawn) {
   on_every_driver([](measure::Device& device) {
-    const scene::Camera camera = looking({0, 0, 3}, {0, 0, 0}, 0.005);
+    const scene::Camera camera = camera_looking_at({0, 0, 3}, {0, 0, 0}, 0.005);
     const auto work_of_width = [&](int width) {
       return particle_work(particles_of({{0, 0, 0, 1}, {1.1, 0, 0.1, 0.3}}), camera, width, 8);
     };
@@ -318,7 +321,8 @@ TEST(Particles, InvalidSpheresAreDropped) {
   EXPECT_EQ(set.dropped, 5U);
   EXPECT_EQ(set.ids, (std::vector<std::uint32_t>{0, 6}));
   on_every_driver([&](measure::Device& device) {
-    expect_all_true(device, particle_work(set, looking({0, 0, 4}, {0, 0, 0}, 60), 48, 48));
+    expect_all_true(device,
+                    particle_work(set, camera_looking_at({0, 0, 4}, {0, 0, 0}, 60), 48, 48));
   });
 }
 

@@ -23,10 +23,10 @@ std::vector<scene::Camera> cameras(const scene::Box& box) {
   const glm::dvec3 size = box.hi - box.lo;
   const auto at = [&](double x, double y, double z) { return glm::dvec3(x, y, z) * size; };
   return {scene::camera_at("orbit_y:1/8", box, 90),
-          scene::looking({0.2 * size.x, 0.5 * size.y, 27.5}, at(0.9, 0.5, 0.45), 90),
-          scene::looking(at(0.4, 0.6, -0.5), at(0.45, 0.5, 0.5), 60),
-          scene::looking(at(0.6, 0.4, 0.9), at(0.5, 0.5, 3), 100),
-          scene::looking(at(900, 700, 20), at(0.5, 0.5, 0.5), 0.1)};
+          scene::camera_looking_at({0.2 * size.x, 0.5 * size.y, 27.5}, at(0.9, 0.5, 0.45), 90),
+          scene::camera_looking_at(at(0.4, 0.6, -0.5), at(0.45, 0.5, 0.5), 60),
+          scene::camera_looking_at(at(0.6, 0.4, 0.9), at(0.5, 0.5, 3), 100),
+          scene::camera_looking_at(at(900, 700, 20), at(0.5, 0.5, 0.5), 0.1)};
 }
 
 measure::VolumeWork& volume_of(measure::Work& work) {
@@ -65,7 +65,7 @@ Drawn drawn(measure::Device& device, const measure::Work& work) {
 
 // For each n in `shares`, draws the volume with about 1/n of its voxels on the device, and compares
 // the result with the whole volume.
-void expect_the_whole(measure::Device& device, measure::Work work, std::vector<int> shares) {
+void expect_same_as_whole(measure::Device& device, measure::Work work, std::vector<int> shares) {
   volume_of(work).options.budget = 0;
   const Drawn whole = drawn(device, work);
   EXPECT_FALSE(whole.in_parts);
@@ -81,13 +81,13 @@ void expect_the_whole(measure::Device& device, measure::Work work, std::vector<i
 
 // Returns the samplers with which the device can draw volumes in parts.
 std::vector<Sampler> samplers(measure::Device& device, measure::Work work) {
-  std::vector<Sampler> able;
+  std::vector<Sampler> supported;
   for (const Sampler sampler : {Sampler::manual, Sampler::packed}) {
     volume_of(work).options.sampler = sampler;
     volume_of(work).options.budget = static_cast<std::uint64_t>(whole_bytes(volume_of(work)) / 2);
-    if (!device.unsupported(work)) able.push_back(sampler);
+    if (!device.unsupported(work)) supported.push_back(sampler);
   }
-  return able;
+  return supported;
 }
 
 measure::Work work_of(std::string_view generator, scene::VolumeScene scene) {
@@ -102,7 +102,7 @@ measure::Work work_of(std::string_view generator, scene::VolumeScene scene) {
 // With `all`, draws from all cameras with skip=distance, and from the camera inside the volume that
 // looks along the slabs with every other skip mode. Without `all`, draws only from that camera and
 // only with skip=distance.
-void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work, bool all) {
+void expect_same_as_whole_for_skips(measure::Device& device, measure::Work& work, bool all) {
   const auto views = cameras(volume_of(work).scene.box());
   for (const Skip skip : {Skip::none, Skip::bricks, Skip::distance}) {
     for (std::size_t i = 0; i < views.size(); ++i) {
@@ -111,34 +111,34 @@ void expect_the_whole_by_every_skip(measure::Device& device, measure::Work& work
       SCOPED_TRACE(fmt::format("skip {} camera {}", technique::name_of(skip), i));
       volume_of(work).scene.camera = views[i];
       volume_of(work).options.skip = skip;
-      expect_the_whole(device, work, {5});
+      expect_same_as_whole(device, work, {5});
     }
   }
 }
 
 // Building the pipelines takes most of the time. Therefore, the midpoint rule and the cell rule are
 // drawn without shading, and preintegration with shading. One sampler draws all skip modes and
-// views, and the other samplers draw one view. With everything(), each sampler draws all
+// views, and the other samplers draw one view. With is_exhaustive_run(), each sampler draws all
 // combinations.
 TEST(Parts, MatchTheWholeVolumeInImageAndCounts) {
   on_every_driver([](measure::Device& device) {
     for (const Quadrature quadrature :
          {Quadrature::midpoint, Quadrature::preintegrated, Quadrature::cells}) {
       for (const bool shaded : {false, true}) {
-        if (shaded != (quadrature == Quadrature::preintegrated) && !everything()) continue;
+        if (shaded != (quadrature == Quadrature::preintegrated) && !is_exhaustive_run()) continue;
         scene::VolumeScene scene = small_scene("surfaces");
         scene.quadrature = quadrature;
         scene.shading.enabled = shaded;
         measure::Work work = work_of("nested_shells", std::move(scene));
-        const auto able = samplers(device, work);
-        ASSERT_FALSE(able.empty());
-        for (const Sampler sampler : able) {
+        const auto supported = samplers(device, work);
+        ASSERT_FALSE(supported.empty());
+        for (const Sampler sampler : supported) {
           SCOPED_TRACE(fmt::format("{} shaded {} {}", scene::name_of(quadrature), shaded,
                                    technique::name_of(sampler)));
           volume_of(work).options.sampler = sampler;
           const bool packed = shaded || quadrature == Quadrature::cells;
-          const bool chosen = sampler == (packed ? able.back() : able.front());
-          expect_the_whole_by_every_skip(device, work, chosen || everything());
+          const bool chosen = sampler == (packed ? supported.back() : supported.front());
+          expect_same_as_whole_for_skips(device, work, chosen || is_exhaustive_run());
         }
       }
     }
@@ -163,7 +163,7 @@ TEST(Parts, MatchTheWholeVolumeForEveryFormatAndStep) {
                                        step));
               volume_of(work).options.ert = ert;
               volume_of(work).scene.step_voxels = step;
-              expect_the_whole(device, work, {2});
+              expect_same_as_whole(device, work, {2});
             }
           }
         }
@@ -181,11 +181,11 @@ TEST(Parts, MatchWithMergedBricksOrDoublePrecision) {
       volume_of(work).options.sampler = sampler;
       volume_of(work).options.skip = Skip::bricks;
       volume_of(work).options.adapt = 0.01;
-      expect_the_whole(device, work, {4});
+      expect_same_as_whole(device, work, {4});
       work = plain;
       volume_of(work).options.sampler = sampler;
       volume_of(work).options.precision = technique::Precision::fp64;
-      if (!device.unsupported(work)) expect_the_whole(device, work, {4});
+      if (!device.unsupported(work)) expect_same_as_whole(device, work, {4});
     }
   });
 }
@@ -209,7 +209,7 @@ TEST(Parts, InvisiblePartsAreReadIfAWalkReadsThem) {
           options.sampler = sampler;
           options.skip = skip;
           scene.camera = scene::camera_at(fmt::format("orbit_y:{}/16", view), scene.box(), 90);
-          expect_the_whole(device, work, {2, 4});
+          expect_same_as_whole(device, work, {2, 4});
         }
       }
     }
@@ -236,7 +236,7 @@ TEST(Parts, VolumesDeeperThanAnyImageStayWithinTheBound) {
     measure::Work work = default_work(device, std::move(volume), small_scene("haze"));
     auto& [scene, options] = volume_of(work);
     options.sampler = Sampler::manual;
-    scene.camera = scene::looking({2, 1.5, 2600}, {2.5, 2, 2500}, 60);
+    scene.camera = scene::camera_looking_at({2, 1.5, 2600}, {2.5, 2, 2500}, 60);
     const auto prepared = device.prepare(work);
     for (const char* name : {"maxImageDimension3D", "GL_MAX_3D_TEXTURE_SIZE"}) {
       const auto limit = device.info().limits.find(name);

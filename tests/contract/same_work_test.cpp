@@ -59,7 +59,7 @@ TEST(SameWork, ConservativeDepthWithoutOverlaps) {
   on_every_driver([](measure::Device& device) {
     const ParticleWork work =
         particle_work(particles_of({{-1.5, 0, 0, 0.4}, {1.5, 0.3, 0.5, 0.3}, {0, -1.2, -1, 0.2}}),
-                      looking({0, 0, 6}, {0, 0, 0}, 50), 96, 96);
+                      camera_looking_at({0, 0, 6}, {0, 0, 0}, 50), 96, 96);
     ASSERT_TRUE(particles_suite::sprites_are_apart(work.scene));
     with_every_technique(device, work, [&](const measure::Work& off) {
       measure::Work on = off;

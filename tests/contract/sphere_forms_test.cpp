@@ -46,7 +46,7 @@ TEST(SphereForms, S1SilhouettesAreEllipses) {
       const double sine = 0.2;
       const glm::dvec3 centre{5 * std::sin(theta), 0, -5 * std::cos(theta)};
       const ParticleWork work = white_spheres({{centre.x, centre.y, centre.z, 5 * sine}},
-                                              looking({0, 0, 0}, {0, 0, -1}, 80));
+                                              camera_looking_at({0, 0, 0}, {0, 0, -1}, 80));
       const auto ellipse = reference::s1_silhouette(sine, theta, focal);
       ASSERT_TRUE(ellipse);
       with_every_technique(device, work, [&](const measure::Work& whole) {
@@ -65,7 +65,8 @@ TEST(SphereForms, S3TheMeanCosineOverADiscIsTwoThirds) {
   on_every_driver([](measure::Device& device) {
     const double radius_px = 60;
     const double fov = 2 * std::atan(side / (2 * radius_px) / 2e5) * 180 / pi;
-    const ParticleWork work = white_spheres({{0, 0, 0, 1}}, looking({0, 0, 2e5}, {0, 0, 0}, fov));
+    const ParticleWork work =
+        white_spheres({{0, 0, 0, 1}}, camera_looking_at({0, 0, 2e5}, {0, 0, 0}, fov));
     const scene::SphereShading shading;
     with_every_technique(device, work, [&](const measure::Work& whole) {
       const core::Image image = draw(device, whole);
@@ -84,7 +85,7 @@ TEST(SphereForms, S3TheMeanCosineOverADiscIsTwoThirds) {
 TEST(SphereForms, S4EqualSpheresMeetInTheBisectingPlane) {
   on_every_driver([](measure::Device& device) {
     const std::array<glm::dvec3, 2> centres{glm::dvec3{-0.3, 0.1, 0.2}, glm::dvec3{0.4, 0, -0.1}};
-    const scene::Camera camera = looking({1, 2, 5}, {0, 0, 0}, 30);
+    const scene::Camera camera = camera_looking_at({1, 2, 5}, {0, 0, 0}, 30);
     const ParticleWork work = white_spheres({{centres[0].x, centres[0].y, centres[0].z, 0.8},
                                              {centres[1].x, centres[1].y, centres[1].z, 0.8}},
                                             camera);
@@ -126,7 +127,8 @@ TEST(SphereForms, S5RandomDiscsLeaveTheExpectedShareUncovered) {
     for (int i = 0; i < discs; ++i) {
       spheres.push_back({random.uniform(-1, 1), random.uniform(-1, 1), 0, radius});
     }
-    const ParticleWork work = white_spheres(spheres, looking({0, 0, distance}, {0, 0, 0}, fov));
+    const ParticleWork work =
+        white_spheres(spheres, camera_looking_at({0, 0, distance}, {0, 0, 0}, fov));
     const double free = reference::s5_uncovered(discs, radius, 4);
     const double deviation = std::sqrt(free * (1 - free) * 4 * pi * radius * radius / 3.24);
     with_every_technique(device, work, [&](const measure::Work& whole) {
@@ -144,7 +146,8 @@ TEST(SphereForms, S6PolygonsWasteTheExpectedFragments) {
   on_every_driver([](measure::Device& device) {
     const double radius_px = 60;
     const double fov = 2 * std::atan(side / (2 * radius_px) / 1e3) * 180 / pi;
-    ParticleWork work = white_spheres({{0, 0, 0, 1}}, looking({0, 0, 1e3}, {0, 0, 0}, fov));
+    ParticleWork work =
+        white_spheres({{0, 0, 0, 1}}, camera_looking_at({0, 0, 1e3}, {0, 0, 0}, fov));
     for (const int corners : {4, 8, 16}) {
       SCOPED_TRACE(corners);
       work.options.corners = corners;

@@ -10,7 +10,7 @@
 #include "measure/contract/backend.hpp"
 #include "record/one_per_driver.hpp"
 #include "scene/generators.hpp"
-#include "tests/support/everything.hpp"
+#include "tests/support/exhaustive_run.hpp"
 
 namespace triptych::contract {
 
@@ -39,12 +39,12 @@ inline void on_every_device(const std::function<void(measure::Device&)>& body) {
   on_devices(body, false);
 }
 
-using test::everything;
+using test::is_exhaustive_run;
 
-// Runs `body` on one device per driver, or on every device if everything() is true. Used for
+// Runs `body` on one device per driver, or on every device if is_exhaustive_run() is true. Used for
 // results that depend only on the driver and the backend, not on how a device is opened.
 inline void on_every_driver(const std::function<void(measure::Device&)>& body) {
-  on_devices(body, !everything());
+  on_devices(body, !is_exhaustive_run());
 }
 
 inline record::Counts counts_of(measure::Device& device, const measure::Work& work) {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "support/everything.hpp"
+#include "support/exhaustive_run.hpp"
 #include "tests/layer/layered.hpp"
 
 namespace triptych::layer {
@@ -93,19 +93,19 @@ int count(const std::string& text, const std::string& part) {
 std::vector<Lowered> rows_of(std::string_view plan) {
   std::vector<Lowered> rows;
   std::vector<std::string> names;
-  std::string together;
+  std::string combined;
   for (const Lowered& each : lowered()) {
     if (each.plan != plan) continue;
     const std::string name = each.change.substr(0, each.change.find('='));
     const bool repeated = std::ranges::find(names, name) != names.end();
-    if (test::everything() || each.skipped > 0 || repeated || name == "emptyHeap") {
+    if (test::is_exhaustive_run() || each.skipped > 0 || repeated || name == "emptyHeap") {
       rows.push_back(each);
       continue;
     }
     names.push_back(name);
-    together += (together.empty() ? "" : ";") + each.change;
+    combined += (combined.empty() ? "" : ";") + each.change;
   }
-  if (!together.empty()) rows.push_back({together, plan});
+  if (!combined.empty()) rows.push_back({combined, plan});
   return rows;
 }
 
@@ -157,9 +157,9 @@ TEST_F(LoweredLimits, WallTimeIsUsedWithoutADeviceClock) {
 // permit, so Triptych does not check them and makes such calls.
 TEST_F(LoweredLimits, UseBeyondALimitIsRejected) {
   EXPECT_THAT(layered.draw("noSuchLimit", volume).output, HasSubstr("no device matches vulkan:*"));
-  const std::string unasked = layered.draw("maxImageDimension1D=128", volume).output;
+  const std::string unchecked = layered.draw("maxImageDimension1D=128", volume).output;
   // Newer versions of Vulkan-Hpp report Device::createImage instead of vkCreateImage.
-  EXPECT_THAT(unasked, HasSubstr("reateImage returned ErrorUnknown"));
+  EXPECT_THAT(unchecked, HasSubstr("reateImage returned ErrorUnknown"));
   EXPECT_THAT(layered.draw("maxPerStageResources=12", particles).output,
               testing::ContainsRegex("[.]tiles[.][^ ]*[.]v64: failed: "));
 }

@@ -30,36 +30,37 @@ scene::ParticleScene at_distances(const std::vector<float>& distances) {
 TEST(OpenByQuads, OnlySpheresThatAreLargerThanThePoints) {
   // The spheres are 70.7, 40.9 and 22.4 pixels wide.
   const scene::ParticleScene scene = at_distances({3, 5, 9});
-  EXPECT_TRUE(open_by_quads(scene, 71, true).empty());
-  EXPECT_EQ(open_by_quads(scene, 70, false).at("vertices"), 3);
-  EXPECT_EQ(open_by_quads(scene, 40, false).at("vertices"), 6);
-  EXPECT_EQ(open_by_quads(scene, 1, false).at("vertices"), 9);
-  EXPECT_EQ(open_by_quads(scene, 70, false).size(), 3) << "kept fragments must not be uncertain";
+  EXPECT_TRUE(open_counts_of_quads(scene, 71, true).empty());
+  EXPECT_EQ(open_counts_of_quads(scene, 70, false).at("vertices"), 3);
+  EXPECT_EQ(open_counts_of_quads(scene, 40, false).at("vertices"), 6);
+  EXPECT_EQ(open_counts_of_quads(scene, 1, false).at("vertices"), 9);
+  EXPECT_EQ(open_counts_of_quads(scene, 70, false).size(), 3)
+      << "kept fragments must not be uncertain";
 }
 
 TEST(OpenByQuads, FragmentsInTheCornersOfSquares) {
   const scene::ParticleScene round = at_distances({3});
-  EXPECT_EQ(open_by_quads(round, 10, false).at("fragments"), 72 * 72 - 70 * 70);
+  EXPECT_EQ(open_counts_of_quads(round, 10, false).at("fragments"), 72 * 72 - 70 * 70);
   // Part of the sphere is outside the image. The quad covers up to 72² pixels, and the visible part
   // of the silhouette is 39 pixels wide and 70 pixels high, so 72² − 39 · 70 fragments are open.
   scene::ParticleScene cut = round;
   auto set = std::make_shared<scene::ParticleSet>();
   set->spheres = {{3, 0, -3, 1}};
   cut.particles = set;
-  const auto open = open_by_quads(cut, 10, false);
+  const auto open = open_counts_of_quads(cut, 10, false);
   EXPECT_GT(open.at("fragments"), 2000);
   EXPECT_EQ(open.at("fragments"), open.at("fragments_discarded"));
 }
 
 TEST(OpenByQuads, SpheresBehindAndAroundTheEye) {
-  EXPECT_TRUE(open_by_quads(at_distances({-3}), 1, false).empty());
-  EXPECT_EQ(open_by_quads(at_distances({0}), 199, false).at("vertices"), 3);
-  EXPECT_EQ(open_by_quads(at_distances({0}), 199, false).at("fragments"), 0);
-  EXPECT_TRUE(open_by_quads(at_distances({0}), 201, false).empty());
+  EXPECT_TRUE(open_counts_of_quads(at_distances({-3}), 1, false).empty());
+  EXPECT_EQ(open_counts_of_quads(at_distances({0}), 199, false).at("vertices"), 3);
+  EXPECT_EQ(open_counts_of_quads(at_distances({0}), 199, false).at("fragments"), 0);
+  EXPECT_TRUE(open_counts_of_quads(at_distances({0}), 201, false).empty());
 }
 
 TEST(OpenByQuads, BehindQuadsOcclusionCullsMore) {
-  const auto open = open_by_quads(at_distances({3, 9}), 64, true);
+  const auto open = open_counts_of_quads(at_distances({3, 9}), 64, true);
   EXPECT_EQ(open.at("cells_culled"), 2);
   EXPECT_EQ(open.at("vertices"), 8);
   EXPECT_FALSE(open.contains("visible_ids"));

@@ -19,7 +19,7 @@ measure::ParticleWork work_of(const std::vector<std::array<double, 4>>& spheres)
   }
   measure::ParticleWork work;
   work.scene.particles = std::make_shared<const scene::ParticleSet>(std::move(set));
-  work.scene.camera = scene::looking({0, 0, 10}, {0, 0, 0}, 40);
+  work.scene.camera = scene::camera_looking_at({0, 0, 10}, {0, 0, 0}, 40);
   work.scene.width = 128;
   work.scene.height = 96;
   work.options.conservative_depth = true;

@@ -117,10 +117,10 @@ TEST(StressSuite, TiedVariantsNameTheOneTheyAreTiedTo) {
   EXPECT_TRUE(expected("generate:uniform:10").empty());
   const auto small = expected("stress:scale:small");
   ASSERT_EQ(small.size(), 1U);
-  const auto& same = std::get<record::SameImage>(small[0].rule);
-  EXPECT_EQ(same.changed.at("data"), "stress:scale:unit");
-  EXPECT_EQ(same.depth_scale, 0x1.0p-20F);
-  EXPECT_TRUE(same.to_the_bit);
+  const auto& same_image = std::get<record::SameImage>(small[0].rule);
+  EXPECT_EQ(same_image.changed.at("data"), "stress:scale:unit");
+  EXPECT_EQ(same_image.depth_scale, 0x1.0p-20F);
+  EXPECT_TRUE(same_image.to_the_bit);
   ASSERT_EQ(expected("stress:order:shuffled").size(), 1U);
   ASSERT_EQ(expected("stress:no_sphere:with").size(), 1U);
   ASSERT_EQ(expected("stress:count:0").size(), 1U);

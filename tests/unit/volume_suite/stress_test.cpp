@@ -49,12 +49,12 @@ double largest_ratio(const accuracy::TruthPair& truth, bool flip_x, bool flip_y)
   double largest = 0;
   for (int y = 0; y < truth.truth.height; ++y) {
     for (int x = 0; x < truth.truth.width; ++x) {
-      const auto here = truth.truth.pixel(x, y);
-      const auto there = truth.truth.pixel(flip_x ? truth.truth.width - 1 - x : x,
-                                           flip_y ? truth.truth.height - 1 - y : y);
+      const auto pixel = truth.truth.pixel(x, y);
+      const auto mirrored = truth.truth.pixel(flip_x ? truth.truth.width - 1 - x : x,
+                                              flip_y ? truth.truth.height - 1 - y : y);
       const double bound = static_cast<double>(truth.bound.pixel(x, y)[0]);
       for (std::size_t c = 0; c < 4; ++c) {
-        largest = std::max(largest, static_cast<double>(std::abs(here[c] - there[c])) / bound);
+        largest = std::max(largest, static_cast<double>(std::abs(pixel[c] - mirrored[c])) / bound);
       }
     }
   }

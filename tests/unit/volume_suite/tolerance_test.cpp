@@ -68,8 +68,8 @@ TEST(Tolerance, HoldsForSinglePrecision) {
 // Compares images of rounded voxels with the reference images of the original voxels. The bound
 // must include a term for this rounding; without it, the bound is exceeded.
 TEST(Tolerance, CoversVoxelsRoundedToHalves) {
-  double paid = 0;
-  double unpaid = 0;
+  double with_term = 0;
+  double without_term = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     const auto character =
         seed % 2 == 0 ? reference::Character::smooth : reference::Character::rough;
@@ -87,13 +87,14 @@ TEST(Tolerance, CoversVoxelsRoundedToHalves) {
       }
       return largest;
     };
-    paid = std::max(
-        paid, largest_share({.storage_step = 0x1p-28, .voxel_rounding = scene::half_roundoff}));
-    unpaid = std::max(unpaid, largest_share({}));
+    with_term =
+        std::max(with_term,
+                 largest_share({.storage_step = 0x1p-28, .voxel_rounding = scene::half_roundoff}));
+    without_term = std::max(without_term, largest_share({}));
   }
-  EXPECT_LE(paid, 1);
-  EXPECT_GT(paid, 0.02);
-  EXPECT_GT(unpaid, 1);
+  EXPECT_LE(with_term, 1);
+  EXPECT_GT(with_term, 0.02);
+  EXPECT_GT(without_term, 1);
 }
 
 }  // namespace
