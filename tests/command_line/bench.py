@@ -44,7 +44,7 @@ class Bench(unittest.TestCase):
         with contextlib.closing(sqlite3.connect(store)) as database:
             return {key for key, in database.execute("SELECT configuration FROM record WHERE injected <> ''")}
 
-    def test_every_kind_meets_what_it_says(self):
+    def test_every_kind_affects_the_listed_configurations(self):
         configurations = [line.split()[-1] for line in self.triptych("list", "plan.yaml").splitlines()]
         self.assertEqual(len(configurations), 4)
         for kind in ("one", "level", "everything"):

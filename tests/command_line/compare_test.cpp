@@ -39,9 +39,9 @@ class Compare : public testing::Test {
   std::filesystem::path image_file = correct_image(program);
 };
 
-void expect_verdict(const Result& result, int code, std::string_view says) {
+void expect_verdict(const Result& result, int code, std::string_view expected) {
   EXPECT_EQ(result.code, code) << result.output;
-  EXPECT_NE(result.output.find(says), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find(expected), std::string::npos) << result.output;
 }
 
 TEST_F(Compare, ASideIsNotSlowerThanAnIdenticalOne) {

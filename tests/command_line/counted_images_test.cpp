@@ -53,8 +53,8 @@ TEST_F(CountedImages, AreStoredIfThePlanJudgesThem) {
   }
   const Result judged = program.run("gate both.yaml --store both.sqlite --check image");
   EXPECT_NE(judged.output.find("2 within their error bounds"), std::string::npos) << judged.output;
-  const Result told = program.run("gate both.yaml --store both.sqlite --check accuracy --json");
-  EXPECT_NE(told.output.find("\"fetched_bytes\": "), std::string::npos) << told.output;
+  const Result printed = program.run("gate both.yaml --store both.sqlite --check accuracy --json");
+  EXPECT_NE(printed.output.find("\"fetched_bytes\": "), std::string::npos) << printed.output;
 }
 
 }  // namespace

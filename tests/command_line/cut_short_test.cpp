@@ -120,7 +120,7 @@ TEST_F(CutShort, APlanThatLostAcceptedChecksIsReported) {
   EXPECT_THAT(judged.output, HasSubstr("checks_lost"));
 }
 
-TEST_F(CutShort, AnInjectedFaultIsOnTheLastScreen) {
+TEST_F(CutShort, AnInjectedFaultIsOnTheSummaryScreen) {
   accept();
   ASSERT_EQ(run(two_devices, "--inject slowdown:20").code, 0);
   EXPECT_THAT(gate().output, HasSubstr("injected faults (slowdown:20)"));

@@ -59,7 +59,7 @@ class Dashboard(unittest.TestCase):
         self.assertIn("project=Triptych", name)
         return (gzip.decompress(body) if body[:2] == b"\x1f\x8b" else body).decode()
 
-    def test_numbers_and_pictures_arrive(self):
+    def test_numbers_and_images_arrive(self):
         done = self.submit(CDASH_TOKEN="a-token")
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         sent = self.sent()
@@ -68,25 +68,25 @@ class Dashboard(unittest.TestCase):
         self.assertIn('name="DifferenceImage"', sent)
         self.assertEqual(self.token, "Bearer a-token")
 
-    def test_a_failure_is_submitted_and_told(self):
+    def test_a_failure_is_submitted_and_reported(self):
         done = self.submit(code=1)
         self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
         self.assertIn('<Test Status="failed">', self.sent())
 
-    def test_a_server_that_refuses_is_told(self):
+    def test_a_rejected_submission_is_reported(self):
         self.status = 403
         done = self.submit()
         self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
         self.assertIn("could not be submitted to http://127.0.0.1", done.stderr)
 
-    def test_wrong_words_end_with_3(self):
+    def test_wrong_usage_exits_with_code_3(self):
         for words, says in ((["--build"], "--build needs a value"), (["--track"], "--track needs a value"),
                             (["--build", "/no/such", "url"], "no tests in /no/such"), (["--nonsense"], "unknown option --nonsense")):
             done = subprocess.run([ROOT / "ci/dashboard", *words], capture_output=True, text=True)
             self.assertEqual(done.returncode, 3, done.stderr)
             self.assertIn(says, done.stderr)
 
-    def test_what_runs_nothing_submits_nothing(self):
+    def test_a_run_without_tests_submits_nothing(self):
         done = self.submit(label="no-such-label")
         self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
         self.assertIn("no test was run", done.stderr)

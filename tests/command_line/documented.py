@@ -133,7 +133,7 @@ class Documented(unittest.TestCase):
                     for store in ("shard-1", "old", "new", "monday", "tuesday"):
                         shutil.copy(pathlib.Path(folder, "results.sqlite"), pathlib.Path(folder, f"{store}.sqlite"))
 
-    def test_what_is_only_named_is_there(self):
+    def test_every_mentioned_option_exists(self):
         """The program's help must contain every command and option that appears in a synopsis or between backquotes."""
         helps = {}
         for page in PAGES:

@@ -160,8 +160,8 @@ TEST_P(Examples, PassFailAndPassAgainInANewRepository) {
   EXPECT_EQ(red.code, 1) << red.output;
   EXPECT_THAT(red.output.substr(red.output.find("## ")),
               AllOf(HasSubstr("pixels exceed the error bound"), HasSubstr("image")));
-  const Result mended = pass();
-  EXPECT_EQ(mended.code, 0) << mended.output;
+  const Result repaired = pass();
+  EXPECT_EQ(repaired.code, 0) << repaired.output;
   EXPECT_EQ(program.read("builds"), "built\n")
       << "the package must be built once and then be reused";
 }

@@ -111,14 +111,15 @@ inline Outcome follow(pid_t child, long at) {
 
 }  // namespace failing_detail
 
-// `told` is the name of the file in `folder` to which the program's output is written.
+// `output_file` is the name of the file in `folder` to which the program's output is written.
 inline Outcome run_failing(const std::filesystem::path& folder, const std::string& script,
-                           const std::vector<std::string>& arguments, const std::string& told,
+                           const std::vector<std::string>& arguments,
+                           const std::string& output_file,
                            long at = std::numeric_limits<long>::max()) {
   std::vector<std::string> words{TRIPTYCH_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const pid_t child = ::fork();
-  if (child == 0) killed_detail::become(folder, script, told, words);
+  if (child == 0) killed_detail::exec_traced(folder, script, output_file, words);
   int status = 0;
   ::waitpid(child, &status, 0);
   if (!WIFSTOPPED(status)) return {.traced = false};

@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 using testing::AnyOf;
 
 long tries() {
-  const char* asked = std::getenv("TRIPTYCH_KILLS");
-  return asked == nullptr ? 12 : std::stol(asked);
+  const char* variable = std::getenv("TRIPTYCH_KILLS");
+  return variable == nullptr ? 12 : std::stol(variable);
 }
 
 class FailingCalls : public testing::Test {
@@ -56,11 +56,11 @@ class FailingCalls : public testing::Test {
     for (long at = 1; at <= whole.calls && !HasFailure(); at += step) {
       before();
       const Outcome outcome = run_failing(program.folder(), script(), words, "told", at);
-      const std::string told = program.read("told");
-      SCOPED_TRACE(fmt::format("call {} of {}: {}", at, whole.calls, told));
+      const std::string printed = program.read("told");
+      SCOPED_TRACE(fmt::format("call {} of {}: {}", at, whole.calls, printed));
       EXPECT_THAT(outcome.code, AnyOf(0, 2, 3));
       if (outcome.code != 0) {
-        EXPECT_NE(told, "");
+        EXPECT_NE(printed, "");
       }
       check(outcome.code);
     }

@@ -175,14 +175,14 @@ TEST(Gate, OutputsWithTheSameNameAreRejected) {
   const Program program;
   ASSERT_EQ(program.run(measure_into("s.sqlite"), script(correct_image(program), 1, 1)).code, 0);
   const std::string store = program.read("s.sqlite");
-  for (const auto& [outputs, says] :
+  for (const auto& [outputs, expected] :
        {std::pair("--junit s.sqlite",
                   "--junit s.sqlite names the same file as --store; choose another"),
         {"--markdown ./s.sqlite", "--markdown ./s.sqlite names the same file as --store"},
         {"--junit new --markdown ./new", "--markdown ./new names the same file as --junit"}}) {
     const Result judged = program.run(judge_from("s.sqlite") + " " + outputs);
     EXPECT_EQ(judged.code, 3) << judged.output;
-    EXPECT_NE(judged.output.find(says), std::string::npos) << judged.output;
+    EXPECT_NE(judged.output.find(expected), std::string::npos) << judged.output;
   }
   program.write("plan.yaml", "suite: volume\n");
   EXPECT_EQ(program.run("gate plan.yaml --store s.sqlite --junit plan.yaml").code, 3);

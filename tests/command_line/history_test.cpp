@@ -40,9 +40,9 @@ TEST_F(History, ReportsChangesAndTheFirstStoreThatIsWorse) {
   measure("2.sqlite", "2e5");
   measure("3.sqlite", "2e5", R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
   measure("4.sqlite", "2e5", R"(, "failures": [{"kind": "wrong_image", "at": "image"}])");
-  const Result told = program.run("history 1.sqlite 2.sqlite 3.sqlite 4.sqlite --json");
-  ASSERT_EQ(told.code, 0) << told.output;
-  const core::Json history = core::Json::parse(told.output).at(0);
+  const Result printed = program.run("history 1.sqlite 2.sqlite 3.sqlite 4.sqlite --json");
+  ASSERT_EQ(printed.code, 0) << printed.output;
+  const core::Json history = core::Json::parse(printed.output).at(0);
   EXPECT_EQ(history.at("device"), "null:scripted");
   const core::Json& points = history.at("points");
   ASSERT_EQ(points.size(), 4U);
@@ -61,8 +61,8 @@ TEST_F(History, ComparesTimesFromTheSameClock) {
   measure("1.sqlite", "1e5", R"(, "device_over_wall": 0.91)");
   measure("2.sqlite", "1e5", R"(, "device_over_wall": 0.1)");
   measure("3.sqlite", "2e5", R"(, "device_over_wall": 0.91)");
-  const Result told = program.run("history 1.sqlite 2.sqlite 3.sqlite --json");
-  const core::Json points = core::Json::parse(told.output).at(0).at("points");
+  const Result printed = program.run("history 1.sqlite 2.sqlite 3.sqlite --json");
+  const core::Json points = core::Json::parse(printed.output).at(0).at("points");
   ASSERT_EQ(points.size(), 3U);
   EXPECT_NEAR(points[1].at("time").get<double>(), 1, 0.05);
   EXPECT_NEAR(points[2].at("time").get<double>(), 2, 0.2);
@@ -74,8 +74,8 @@ TEST_F(History, ContinuesAfterAGap) {
   measure("1.sqlite", "1e5");
   measure("2.sqlite", "1e5", "", "--untimed");
   measure("3.sqlite", "2e5", wrong);
-  const Result told = program.run("history 1.sqlite 2.sqlite 3.sqlite --json");
-  const core::Json points = core::Json::parse(told.output).at(0).at("points");
+  const Result printed = program.run("history 1.sqlite 2.sqlite 3.sqlite --json");
+  const core::Json points = core::Json::parse(printed.output).at(0).at("points");
   ASSERT_EQ(points.size(), 3U);
   EXPECT_FALSE(points[1].contains("time"));
   EXPECT_NEAR(points[2].at("time").get<double>(), 2, 0.2);
@@ -91,11 +91,11 @@ TEST_F(History, ComparesEachConfigurationWithThePreviousStoreThatHasIt) {
   measure("2.sqlite", "1e5", "", "--set skip=none");
   measure("3.sqlite", "1e5", wrong);
   measure("4.sqlite", "1e5", wrong);
-  const Result told = program.run("history 1.sqlite 2.sqlite 3.sqlite 4.sqlite --json");
-  const core::Json points = core::Json::parse(told.output).at(0).at("points");
+  const Result printed = program.run("history 1.sqlite 2.sqlite 3.sqlite 4.sqlite --json");
+  const core::Json points = core::Json::parse(printed.output).at(0).at("points");
   ASSERT_EQ(points.size(), 4U);
   EXPECT_FALSE(points[1].at("worse").get<bool>());
-  EXPECT_TRUE(points[2].at("worse").get<bool>()) << told.output;
+  EXPECT_TRUE(points[2].at("worse").get<bool>()) << printed.output;
   EXPECT_FALSE(points[3].at("worse").get<bool>());
 }
 
@@ -103,10 +103,10 @@ TEST_F(History, DistinguishesStoresWithTheSameName) {
   for (const char* store : {"d1/gate.sqlite", "d2/gate.sqlite", "other.sqlite"}) {
     measure(store, "1e5");
   }
-  const Result told =
+  const Result printed =
       program.run("history d1/gate.sqlite d2/gate.sqlite ./other.sqlite --out history.html");
   const std::string page = program.read("history.html");
-  for (const std::string& text : {told.output, page}) {
+  for (const std::string& text : {printed.output, page}) {
     EXPECT_THAT(text, AllOf(HasSubstr("d1/gate.sqlite"), HasSubstr("d2/gate.sqlite")));
     EXPECT_THAT(text, Not(HasSubstr("./other.sqlite")));
   }
@@ -118,17 +118,17 @@ TEST_F(History, OrdersStoresByTime) {
   // one second later.
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   measure("a.sqlite", "1e5");
-  const Result told = program.run("history a.sqlite b.sqlite");
-  ASSERT_EQ(told.code, 0) << told.output;
-  EXPECT_LT(told.output.find("b.sqlite"), told.output.find("a.sqlite")) << told.output;
-  EXPECT_THAT(told.output, Not(HasSubstr("first store that is worse")));
+  const Result printed = program.run("history a.sqlite b.sqlite");
+  ASSERT_EQ(printed.code, 0) << printed.output;
+  EXPECT_LT(printed.output.find("b.sqlite"), printed.output.find("a.sqlite")) << printed.output;
+  EXPECT_THAT(printed.output, Not(HasSubstr("first store that is worse")));
 }
 
 TEST_F(History, ReportsInjectedFaults) {
   measure("1.sqlite", "1e5");
   measure("2.sqlite", "1e5", "", "--inject slowdown:50");
-  const Result told = program.run("history 1.sqlite 2.sqlite --out history.html");
-  for (const std::string& text : {told.output, program.read("history.html")}) {
+  const Result printed = program.run("history 1.sqlite 2.sqlite --out history.html");
+  for (const std::string& text : {printed.output, program.read("history.html")}) {
     EXPECT_THAT(text, HasSubstr(" [injected: slowdown:50]"));
   }
 }

@@ -16,9 +16,9 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-void expect_one_line(const Result& result, std::string_view says) {
+void expect_one_line(const Result& result, std::string_view expected) {
   EXPECT_EQ(result.code, 3) << result.output;
-  EXPECT_THAT(result.output, HasSubstr(says));
+  EXPECT_THAT(result.output, HasSubstr(expected));
   EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
 }
 

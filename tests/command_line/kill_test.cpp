@@ -24,8 +24,8 @@ using Words = std::vector<std::string>;
 using testing::HasSubstr;
 
 int kills() {
-  const char* asked = std::getenv("TRIPTYCH_KILLS");
-  return asked == nullptr ? 8 : std::stoi(asked);
+  const char* variable = std::getenv("TRIPTYCH_KILLS");
+  return variable == nullptr ? 8 : std::stoi(variable);
 }
 
 Words words_of(const std::string& text) {
@@ -86,16 +86,17 @@ TEST_F(Kill, ARunLosesNothingThatItReported) {
   kill_repeatedly(
       words_of(run), [&] { remove_store("s.sqlite"); },
       [&] {
-        const std::string told = program.read("told");
+        const std::string printed = program.read("told");
         std::size_t lines = 0;
-        for (std::size_t at = 0; (at = told.find(" null:scripted ", at)) != std::string::npos; ++at)
+        for (std::size_t at = 0; (at = printed.find(" null:scripted ", at)) != std::string::npos;
+             ++at)
           ++lines;
         if (fs::exists(program.folder() / "s.sqlite") && lines > 0) {
           const record::Store store(program.folder() / "s.sqlite", record::Store::Mode::append);
           EXPECT_NO_THROW(store.require_whole());
           const auto last = store.latest_run("volume/quick");
-          ASSERT_TRUE(last) << told;
-          EXPECT_GE(store.records(last->id).size(), lines) << told;
+          ASSERT_TRUE(last) << printed;
+          EXPECT_GE(store.records(last->id).size(), lines) << printed;
         }
         const Result resumed = program.run(run + " --resume", script());
         EXPECT_EQ(resumed.code, 0) << resumed.output;
@@ -185,11 +186,11 @@ cat told; exit $code
         R"({"base_ns": 10000000, "sleep": true})", "sh kill_worker.sh " + delay);
     SCOPED_TRACE(delay + result.output);
     EXPECT_EQ(result.code, 0);
-    const auto told = [&](const char* what) {
+    const auto is_printed = [&](const char* what) {
       return result.output.find(what) != std::string::npos;
     };
-    EXPECT_TRUE(told("4 measured, 0 skipped, 0 failed") ||
-                (told("3 measured, 0 skipped, 1 failed") && told("killed by SIGKILL")));
+    EXPECT_TRUE(is_printed("4 measured, 0 skipped, 0 failed") ||
+                (is_printed("3 measured, 0 skipped, 1 failed") && is_printed("killed by SIGKILL")));
   }
 }
 

@@ -27,13 +27,13 @@ struct Ending {
 namespace killed_detail {
 
 // Turns this process into the program. Exits with code 126 if tracing is not permitted.
-[[noreturn]] inline void become(const std::filesystem::path& folder, const std::string& script,
-                                const std::string& told,
-                                const std::vector<std::string>& arguments) {
+[[noreturn]] inline void exec_traced(const std::filesystem::path& folder, const std::string& script,
+                                     const std::string& output_file,
+                                     const std::vector<std::string>& arguments) {
   std::vector<char*> words;
   for (const std::string& each : arguments) words.push_back(const_cast<char*>(each.c_str()));
   words.push_back(nullptr);
-  const int out = ::open((folder / told).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  const int out = ::open((folder / output_file).c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
   ::setenv("TRIPTYCH_NULL_SCRIPT", script.c_str(), 1);
   ::setenv("TRIPTYCH_DATA", "", 1);
   // The leak check of a sanitizer also uses tracing, so it is disabled.
@@ -65,14 +65,14 @@ inline Ending follow(pid_t child, long at) {
 
 }  // namespace killed_detail
 
-// `told` is the name of the file in `folder` to which the program's output is written.
+// `output_file` is the name of the file in `folder` to which the program's output is written.
 inline Ending run_killed(const std::filesystem::path& folder, const std::string& script,
-                         const std::vector<std::string>& arguments, const std::string& told,
+                         const std::vector<std::string>& arguments, const std::string& output_file,
                          long at = std::numeric_limits<long>::max()) {
   std::vector<std::string> words{TRIPTYCH_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   const pid_t child = ::fork();
-  if (child == 0) killed_detail::become(folder, script, told, words);
+  if (child == 0) killed_detail::exec_traced(folder, script, output_file, words);
   int status = 0;
   ::waitpid(child, &status, 0);
   if (!WIFSTOPPED(status)) return {.traced = false};

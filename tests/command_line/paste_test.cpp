@@ -1,4 +1,4 @@
-// Tests that a command printed on the last screen (the summary at the end of a gate) reproduces the
+// Tests that a command printed on the summary screen (at the end of a gate) reproduces the
 // fault when it is pasted unchanged.
 
 #include <fmt/format.h>
@@ -74,14 +74,14 @@ TEST_F(Paste, TheCommandForAWrongImageReproducesIt) {
   EXPECT_EQ(pasted.code, 1) << command.arguments << pasted.output;
   EXPECT_THAT(pasted.output, HasSubstr("pixels exceed the error bound of the reference image"));
   EXPECT_TRUE(std::filesystem::exists(program.folder() / "repro/difference.png"));
-  const Result mended = paste(command, script(""));
-  EXPECT_EQ(mended.code, 0) << mended.output;
-  EXPECT_THAT(mended.output, HasSubstr("within the error bound of the reference image"));
+  const Result repaired = paste(command, script(""));
+  EXPECT_EQ(repaired.code, 0) << repaired.output;
+  EXPECT_THAT(repaired.output, HasSubstr("within the error bound of the reference image"));
 }
 
 struct Injected {
   const char* fault;
-  const char* says;        // text that must appear in the first lines of the last screen
+  const char* expected;    // text that must appear in the first lines of the summary screen
   int code;                // exit code of the pasted command
   const char* shows;       // text that the pasted command must print
   const char* extra = "";  // text that the command must contain
@@ -101,7 +101,7 @@ TEST_P(PasteInjected, TheCommandReproducesOnlyTheFault) {
       program.run(fmt::format("gate volume/quick {} --store s.sqlite --baselines b", tiny));
   EXPECT_EQ(judged.code, 1) << judged.output;
   EXPECT_THAT(first_lines(judged.output),
-              AllOf(HasSubstr(injected.says), HasSubstr("null:scripted")));
+              AllOf(HasSubstr(injected.expected), HasSubstr("null:scripted")));
   const std::string fault = fmt::format("--inject {}", injected.fault);
   const Printed command = printed_command(judged.output);
   ASSERT_THAT(command.arguments, AllOf(HasSubstr(fault), HasSubstr(injected.extra)))
@@ -109,8 +109,8 @@ TEST_P(PasteInjected, TheCommandReproducesOnlyTheFault) {
   const Result pasted = paste(command, right);
   EXPECT_EQ(pasted.code, injected.code) << command.arguments << pasted.output;
   EXPECT_THAT(pasted.output, HasSubstr(injected.shows));
-  const Result mended = paste(without(command, fault), right);
-  EXPECT_EQ(mended.code, 0) << mended.output;
+  const Result repaired = paste(without(command, fault), right);
+  EXPECT_EQ(repaired.code, 0) << repaired.output;
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, PasteInjected,
@@ -127,10 +127,10 @@ class PasteOnDevice : public Paste {
  protected:
   static constexpr const char* device = "opencl:pocl";
 
-  // Returns the command that the gate's last screen prints for a plan with this fault and these
+  // Returns the command that the gate's summary screen prints for a plan with this fault and these
   // checks. If the device is missing, nothing is measured and the result is empty.
   Printed command_about(const std::string& fault, const std::string& checks,
-                        const std::string& says) {
+                        const std::string& expected) {
     std::filesystem::create_directory(program.folder() / "my plans");
     program.write("my plans/small.yaml",
                   fmt::format("{}checks: [{}]\nstep: [1, 2]\n", tiny_plan, checks));
@@ -144,7 +144,7 @@ class PasteOnDevice : public Paste {
     EXPECT_EQ(program.run(fmt::format("{} --store s.sqlite --inject {}", measure, fault)).code, 0);
     const Result judged = program.run("gate 'my plans/small.yaml' --store s.sqlite --baselines b");
     EXPECT_EQ(judged.code, 1) << judged.output;
-    EXPECT_THAT(first_lines(judged.output), AllOf(HasSubstr(says), HasSubstr(device)));
+    EXPECT_THAT(first_lines(judged.output), AllOf(HasSubstr(expected), HasSubstr(device)));
     return printed_command(judged.output);
   }
   void expect_code(const Printed& command, int code) const {

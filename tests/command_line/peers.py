@@ -15,14 +15,14 @@ sys.dont_write_bytecode = True
 import peer  # noqa: E402
 
 
-def ratio(ours, vtk, error):
-    with contextlib.redirect_stdout(io.StringIO()) as said:
-        reached = peer.print_ratio("a scene", ours, vtk, error)
-    return reached, said.getvalue().splitlines()
+def ratio(triptych, vtk, error):
+    with contextlib.redirect_stdout(io.StringIO()) as printed:
+        reached = peer.print_ratio("a scene", triptych, vtk, error)
+    return reached, printed.getvalue().splitlines()
 
 
 class Peers(unittest.TestCase):
-    def test_our_side_tells_times_and_errors(self):
+    def test_triptych_reports_times_and_errors(self):
         os.environ.update(TRIPTYCH_NULL_SCRIPT='{"base_ns": 1e5, "factors": {"*step=2*": 0.5}}', TRIPTYCH_DATA="")
         arguments = argparse.Namespace(triptych=os.environ["TRIPTYCH_PROGRAM"], device="null:scripted")
         with tempfile.TemporaryDirectory() as folder:
@@ -35,21 +35,21 @@ class Peers(unittest.TestCase):
         self.assertLess(cases["step=2"][0], cases[""][0])
         self.assertTrue(all(error > 0 for _, error in cases.values()))  # the device draws a pattern instead of the scene
 
-    def test_each_side_keeps_its_least_time(self):
+    def test_each_side_reports_its_shortest_time(self):
         times = iter([5, 7, 3, 9])
         ours, vtk = peer.by_turns(2, lambda: {"a": (next(times), 0.1)}, lambda: {"b": (next(times), 0.2)})
         self.assertEqual((ours, vtk), ({"a": (3, 0.1)}, {"b": (7, 0.2)}))
 
     def test_the_ratio_is_of_the_fastest_within_the_error(self):
         ours = {"step=1": (4e6, 0.01), "step=2": (2e6, 0.02), "step=4": (1e6, 0.5)}
-        reached, said = ratio(ours, {"VTK": (8e6, 0.015)}, 0.02)
+        reached, printed = ratio(ours, {"VTK": (8e6, 0.015)}, 0.02)
         self.assertTrue(reached)
-        self.assertEqual(said[-1], "  time to RMSE 0.02000: Triptych 2.000 ms (step=2), VTK 8.000 ms (VTK); ratio 0.250")
+        self.assertEqual(printed[-1], "  time to RMSE 0.02000: Triptych 2.000 ms (step=2), VTK 8.000 ms (VTK); ratio 0.250")
 
-    def test_who_does_not_reach_the_error_is_told(self):
-        reached, said = ratio({"a": (1e6, 0.01)}, {"VTK": (1e6, 0.5)}, 0.02)
+    def test_a_side_that_misses_the_error_is_reported(self):
+        reached, printed = ratio({"a": (1e6, 0.01)}, {"VTK": (1e6, 0.5)}, 0.02)
         self.assertFalse(reached)
-        self.assertEqual(said[-1], "  no ratio, because RMSE 0.02000 was not reached by VTK")
+        self.assertEqual(printed[-1], "  no ratio, because RMSE 0.02000 was not reached by VTK")
 
 
 if __name__ == "__main__":

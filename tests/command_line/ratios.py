@@ -33,17 +33,17 @@ class Ratios(unittest.TestCase):
         self.assertIn("| new / old: time · instructions · samples or fragments | `null:scripted` |\n|---|---|\n"
                       "| tiles over sprites, 10 spheres | 0.50 (0.50–0.50) · – · ", done.stdout)
 
-    def test_data_that_are_not_there_are_told(self):
+    def test_missing_data_are_reported(self):
         done = run("skip distance over bricks*", factors={})
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stderr.count("skipped, because ct_bonsai_256x256x256_u8.nrrd is missing"), 2)
 
-    def test_a_name_that_is_none(self):
+    def test_an_unknown_name_is_rejected(self):
         done = run("tiels", factors={})
         self.assertEqual(done.returncode, 2)
         self.assertIn("no comparison matches this name; expected one of: cells", done.stderr)
 
-    def test_only_what_keeps_the_error_stands_for_a_side(self):
+    def test_only_techniques_that_meet_the_error_count(self):
         module = loaded()
         ratio = module.Ratio("r", {"suite": "volume", "data": "a:b"}, {"step": [1, 0.5]}, {"step": 2}, ("rmse", 0.1))
         records = [{"device": "d", "factor_step": step, "time": time, "error": {"rmse": error}}
@@ -52,7 +52,7 @@ class Ratios(unittest.TestCase):
         records[1]["error"] = {"rmse": 0.11}
         self.assertEqual(module.chosen_sides(ratio, records, ["d"])[0], [])
 
-    def test_a_side_is_told_of_a_device_only_by_what_keeps_the_error_there(self):
+    def test_only_techniques_that_meet_the_error_on_a_device_count_there(self):
         module = loaded()
         ratio = module.Ratio("r", {"suite": "volume", "data": "a:b"}, {"step": [1, 0.5]}, {"step": 2}, ("rmse", 0.1))
         records = [{"device": "d", "configuration": step, "factor_step": step, "time": time}

@@ -62,20 +62,20 @@ kill -INT $!; wait $!; code=$?; cat out; exit $code
 
 // A driver under test may crash the machine, so a validation can be resumed.
 TEST_F(Resume, AValidationCanBeResumed) {
-  const auto first_told = [&](const std::string& options) {
+  const auto first_words = [&](const std::string& options) {
     const Result ended = validate_one(program, options);
     EXPECT_THAT(ended.output,
                 HasSubstr("the records so far are in the store; use --resume to continue"));
     const std::string from = ended.output.substr(ended.output.find("null:scripted "));
     return from.substr(0, from.find(": "));
   };
-  const std::string first = first_told("");
-  EXPECT_NE(first_told("--resume"), first);
-  EXPECT_EQ(first_told(""), first);
+  const std::string first = first_words("");
+  EXPECT_NE(first_words("--resume"), first);
+  EXPECT_EQ(first_words(""), first);
 }
 
 // The part that was measured is judged, and the missing part does not count as a pass.
-TEST_F(Resume, AnInterruptedValidationEndsWithTheLastScreen) {
+TEST_F(Resume, AnInterruptedValidationEndsWithTheSummaryScreen) {
   const Result ended = validate_one(program, "--junit j.xml --json j.json");
   EXPECT_EQ(ended.code, 1) << ended.output;  // the measured image is wrong
   EXPECT_THAT(ended.output, HasSubstr("Triptych   1 device"));

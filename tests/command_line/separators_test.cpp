@@ -23,7 +23,7 @@ class Separators : public testing::Test {
     }
   }
 
-  static void expect_says(const Result& result, std::string_view text) {
+  static void expect_output(const Result& result, std::string_view text) {
     EXPECT_NE(result.output.find(text), std::string::npos) << result.output;
   }
 
@@ -42,13 +42,13 @@ class Separators : public testing::Test {
 
 TEST_F(Separators, OverridesAcceptWhatListPrints) {
   const Result all = program.run("list plan.yaml");
-  expect_says(all, "data=a%2Cb%3Dc.nrrd,");
+  expect_output(all, "data=a%2Cb%3Dc.nrrd,");
   for (const char* spelling : {"a%2Cb%3Dc.nrrd", "a%2Cb=c.nrrd"}) {
     const std::string set = "list plan.yaml --set data=" + std::string(spelling);
-    expect_says(program.run(set), "plan: 1 configurations");
+    expect_output(program.run(set), "plan: 1 configurations");
     EXPECT_EQ(program.run(set + ",field.nrrd").output, all.output);
   }
-  expect_says(program.run("list plan.yaml --json"), "\"data\": \"a,b=c.nrrd\"");
+  expect_output(program.run("list plan.yaml --json"), "\"data\": \"a,b=c.nrrd\"");
 }
 
 TEST_F(Separators, RunAcceptGateReport) {
@@ -61,7 +61,7 @@ TEST_F(Separators, RunAcceptGateReport) {
       "gate plan.yaml --check counters --baselines b --store s.sqlite --junit j.xml --json");
   EXPECT_EQ(verdict(gate, "a%2Cb%3Dc.nrrd"), "pass") << gate.output;
   EXPECT_EQ(gate.code, 2) << "the baselines lack the other configuration: " << gate.output;
-  expect_says({.output = program.read("j.xml")}, "data=a%2Cb%3Dc.nrrd,");
+  expect_output({.output = program.read("j.xml")}, "data=a%2Cb%3Dc.nrrd,");
   const Result report = program.run("report --store s.sqlite --out page.html");
   ASSERT_EQ(report.code, 0) << report.output;
   EXPECT_NE(program.read("page.html").find("data=a,b=c.nrrd"), std::string::npos);
@@ -71,7 +71,7 @@ TEST_F(Separators, Render) {
   const Result drawn = program.run(
       "render volume --device null:scripted --set data=a%2Cb=c.nrrd --set viewport=16 --out out");
   ASSERT_EQ(drawn.code, 0) << drawn.output;
-  expect_says({.output = program.read("out/frame.json")}, "\"data\": \"a,b=c.nrrd\"");
+  expect_output({.output = program.read("out/frame.json")}, "\"data\": \"a,b=c.nrrd\"");
 }
 
 }  // namespace

@@ -10,9 +10,9 @@
 namespace triptych::command_line {
 namespace {
 
-void expect_refused(const Result& result, int code, std::string_view says) {
+void expect_refused(const Result& result, int code, std::string_view expected) {
   EXPECT_EQ(result.code, code) << result.output;
-  EXPECT_NE(result.output.find(says), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find(expected), std::string::npos) << result.output;
   EXPECT_EQ(std::ranges::count(result.output, '\n'), 1) << result.output;
 }
 

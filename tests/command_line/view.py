@@ -145,14 +145,14 @@ class Window(unittest.TestCase):
 
 
 class Mistakes(unittest.TestCase):
-    def refused(self, arguments, code, *says, **more):
+    def refused(self, arguments, code, *expected, **more):
         done = program(arguments, display=False, environment={**SCRIPTED, "DISPLAY": "", "WAYLAND_DISPLAY": ""}, **more)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        for text in says:
+        for text in expected:
             self.assertIn(text, done.stderr)
 
-    def test_what_is_unknown_is_named(self):
+    def test_unknown_names_are_reported(self):
         self.refused(["clouds"], 3, "unknown suite 'clouds'", "volume")
         self.refused(["volume", "--set", "stepp=1"], 3, "did you mean 'step'?")
         self.refused(["volume", "--set", "step=1,2"], 3, "one level")
