@@ -14,27 +14,28 @@
 namespace triptych::view {
 namespace {
 
-void offer(std::vector<std::string>& offers, const std::string& value) {
-  if (std::ranges::find(offers, value) == offers.end()) offers.push_back(value);
+void add_level(std::vector<std::string>& offered_levels, const std::string& value) {
+  if (std::ranges::find(offered_levels, value) == offered_levels.end())
+    offered_levels.push_back(value);
 }
 
 // Sorts numbers by value, and moves other words to the end in their original order.
-void sort_numbers(std::vector<std::string>& offers) {
+void sort_numbers(std::vector<std::string>& offered_levels) {
   const auto number = [](const std::string& text) {
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     const bool whole = error == std::errc{} && end == text.data() + text.size();
     return std::pair(!whole, whole ? value : 0);
   };
-  std::ranges::stable_sort(offers, {}, number);
+  std::ranges::stable_sort(offered_levels, {}, number);
 }
 
 // Returns "generate:NAME" with the size of the default data, such as ":96" in
 // "generate:mandelbulb:96".
-std::string generated(std::string_view name, std::string_view standard) {
-  const std::size_t colon = standard.rfind(':');
-  const std::string_view size =
-      standard.starts_with("generate:") ? standard.substr(colon) : std::string_view(":64");
+std::string generated(std::string_view name, std::string_view default_level) {
+  const std::size_t colon = default_level.rfind(':');
+  const std::string_view size = default_level.starts_with("generate:") ? default_level.substr(colon)
+                                                                       : std::string_view(":64");
   return fmt::format("generate:{}{}", name, size);
 }
 
@@ -51,19 +52,19 @@ std::vector<std::string> values_of(const measure::Suite& suite, const measure::F
 }  // namespace
 
 Choices::Choices(const measure::Suite& suite, measure::Configuration first)
-    : suite_(suite), first_(std::move(first)), now_(first_) {
+    : suite_(suite), first_(std::move(first)), current_(first_) {
   for (const measure::Factor& each : suite.factors()) {
-    standard_[each.name] = measure::standard_of(each);
+    default_levels_[each.name] = measure::standard_of(each);
   }
-  collect_offers();
+  collect_offered_levels();
 }
 
 std::string Choices::key() const {
-  return measure::configuration_key(suite_, now_);
+  return measure::configuration_key(suite_, current_);
 }
 
 std::string Choices::set(const std::string& factor, std::string_view value) {
-  measure::Configuration next = now_;
+  measure::Configuration next = current_;
   next[factor] = value;
   measure::Overrides overrides;
   for (const auto& [name, level] : next) overrides.push_back({name, {level}});
@@ -76,23 +77,23 @@ std::string Choices::set(const std::string& factor, std::string_view value) {
     if (std::string missing = suite_.missing_data(plan.configurations.front()); !missing.empty()) {
       return missing;
     }
-    now_ = plan.configurations.front();
+    current_ = plan.configurations.front();
     return {};
   } catch (const core::Error& error) {
     return error.what();
   }
 }
 
-void Choices::collect_offers() {
+void Choices::collect_offered_levels() {
   for (const measure::Factor& each : suite_.factors()) {
-    std::vector<std::string>& offers = offers_[each.name];
-    offers = each.levels;
-    if (!each.automatic.empty()) std::erase(offers, "auto");
+    std::vector<std::string>& offered_levels = offered_levels_[each.name];
+    offered_levels = each.levels;
+    if (!each.automatic.empty()) std::erase(offered_levels, "auto");
     if (each.kind == measure::FactorKind::choice) continue;
-    offer(offers, standard_.at(each.name));
+    add_level(offered_levels, default_levels_.at(each.name));
     if (each.name == "data") {
       for (const scene::GeneratorInfo& known : suite_.generators()) {
-        offer(offers, generated(known.name, each.standard));
+        add_level(offered_levels, generated(known.name, each.standard));
       }
     }
   }
@@ -106,13 +107,13 @@ void Choices::collect_offers() {
         if (factor == suite_.factors().end()) continue;
         if (factor->kind == measure::FactorKind::choice) continue;
         for (const std::string& value : values_of(suite_, *factor, entry)) {
-          offer(offers_[factor->name], value);
+          add_level(offered_levels_[factor->name], value);
         }
       }
     }
   }
   for (const measure::Factor& each : suite_.factors()) {
-    if (each.kind == measure::FactorKind::number) sort_numbers(offers_[each.name]);
+    if (each.kind == measure::FactorKind::number) sort_numbers(offered_levels_[each.name]);
   }
 }
 

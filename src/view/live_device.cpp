@@ -19,10 +19,10 @@ constexpr std::chrono::seconds opening_limit{60};
 // Returns the protocol for measuring a frame. If the camera is at rest, this is the protocol for
 // times that do not affect a verdict. While the camera moves, one warm-up frame and one timed frame
 // are enough.
-measure::Protocol protocol_of(const Wanted& wanted) {
+measure::Protocol protocol_of(const FrameRequest& request) {
   measure::Protocol protocol = measure::brief_protocol;
   protocol.measure_every = true;
-  if (wanted.moving) {
+  if (request.moving) {
     protocol.warm_up_frames = 1;
     protocol.timed_frames = 1;
     protocol.statistics = false;
@@ -75,10 +75,10 @@ void LiveDevice::retire() {
   wake_.notify_one();
 }
 
-void LiveDevice::draw(Wanted wanted) {
+void LiveDevice::draw(FrameRequest request) {
   {
     const std::lock_guard lock(mutex_);
-    wanted_ = std::move(wanted);
+    request_ = std::move(request);
   }
   wake_.notify_one();
 }
@@ -88,7 +88,7 @@ LiveDevice::State LiveDevice::state() const {
   return state_;
 }
 
-void LiveDevice::publish(const std::function<void(State&)>& change) {
+void LiveDevice::update_state(const std::function<void(State&)>& change) {
   {
     const std::lock_guard lock(mutex_);
     change(state_);
@@ -96,33 +96,33 @@ void LiveDevice::publish(const std::function<void(State&)>& change) {
   changed_();
 }
 
-std::optional<Wanted> LiveDevice::next() {
+std::optional<FrameRequest> LiveDevice::next() {
   std::unique_lock lock(mutex_);
-  wake_.wait(lock, [this] { return stop_ || wanted_; });
+  wake_.wait(lock, [this] { return stop_ || request_; });
   if (stop_) return std::nullopt;
-  return std::exchange(wanted_, std::nullopt);
+  return std::exchange(request_, std::nullopt);
 }
 
 void LiveDevice::serve() {
   try {
-    while (const auto wanted = next()) {
-      publish([](State& state) { state.drawing = true; });
-      auto answer = std::make_shared<const Drawn>(drawn(*wanted));
-      publish([&](State& state) { state = {.drawn = std::move(answer), .loading = {}}; });
+    while (const auto request = next()) {
+      update_state([](State& state) { state.drawing = true; });
+      auto answer = std::make_shared<const DrawnFrame>(draw_frame(*request));
+      update_state([&](State& state) { state = {.drawn = std::move(answer), .loading = {}}; });
     }
     static_cast<void>(slot_.finish());
   } catch (const measure::Interrupted&) {
     slot_.vacate();  // the window is being closed
   }
-  gone_ = true;
+  has_exited_ = true;
   changed_();
 }
 
-Drawn LiveDevice::drawn(const Wanted& wanted) {
-  Drawn answer{.wanted = wanted, .record = {}, .image = {}, .displayed = {}};
+DrawnFrame LiveDevice::draw_frame(const FrameRequest& request) {
+  DrawnFrame answer{.request = request, .record = {}, .image = {}, .displayed = {}};
   std::vector<std::byte> exr;
   try {
-    answer.record = measured(wanted, exr);
+    answer.record = measure_frame(request, exr);
     if (!exr.empty()) {
       answer.image = core::decode_exr(exr, "the image of " + device_);
       answer.displayed = core::to_srgb(answer.image);
@@ -135,20 +135,20 @@ Drawn LiveDevice::drawn(const Wanted& wanted) {
   }
   answer.record.device = device_;
   answer.record.suite = options_.suite;
-  answer.record.configuration = wanted.key;
-  answer.record.technique = wanted.configuration.at("technique");
-  if (answer.record.factors.empty()) answer.record.factors = wanted.configuration;
+  answer.record.configuration = request.key;
+  answer.record.technique = request.configuration.at("technique");
+  if (answer.record.factors.empty()) answer.record.factors = request.configuration;
   return answer;
 }
 
-measure::Job LiveDevice::job(const Wanted& wanted) const {
-  return {.name = device_ + "/" + wanted.key,
-          .configuration = wanted.configuration,
-          .protocol = protocol_of(wanted),
-          .faults = measure::faults_for(options_.faults, wanted.key, device_)};
+measure::Job LiveDevice::job(const FrameRequest& request) const {
+  return {.name = device_ + "/" + request.key,
+          .configuration = request.configuration,
+          .protocol = protocol_of(request),
+          .faults = measure::faults_for(options_.faults, request.key, device_)};
 }
 
-bool LiveDevice::open_for(const std::string& kind) {
+bool LiveDevice::open_worker(const std::string& kind) {
   const bool known = std::ranges::find(clocks_, kind, &record::ClockTrust::work) != clocks_.end();
   if (slot_.occupied() && !known) static_cast<void>(slot_.finish());
   return slot_.open(
@@ -156,14 +156,14 @@ bool LiveDevice::open_for(const std::string& kind) {
       [&](const measure::Hello& hello) { clocks_ = hello.clocks; });
 }
 
-record::Record LiveDevice::measured(const Wanted& wanted, std::vector<std::byte>& exr) {
-  const auto& technique = technique::technique(wanted.configuration.at("technique"));
-  if (!open_for(std::string(technique::name_of(technique.work)))) {
+record::Record LiveDevice::measure_frame(const FrameRequest& request, std::vector<std::byte>& exr) {
+  const auto& technique = technique::technique(request.configuration.at("technique"));
+  if (!open_worker(std::string(technique::name_of(technique.work)))) {
     return ended(slot_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
                  slot_.why_closed());
   }
-  auto reply = slot_.ask(to_message(job(wanted)), options_.limit, [&](const auto& loading) {
-    publish([&](State& state) { state.loading = loading; });
+  auto reply = slot_.ask(to_message(job(request)), options_.limit, [&](const auto& loading) {
+    update_state([&](State& state) { state.loading = loading; });
   });
   if (auto* lost = std::get_if<measure::WorkerSlot::Ended>(&reply)) {
     return ended(lost->outcome, std::move(lost->reason));

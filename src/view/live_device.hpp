@@ -25,7 +25,7 @@
 namespace triptych::view {
 
 // A frame that the window requests.
-struct Wanted {
+struct FrameRequest {
   std::uint64_t number = 0;  // later frames have larger numbers
   measure::Configuration configuration;
   std::string key;  // measure::configuration_key
@@ -34,8 +34,8 @@ struct Wanted {
 };
 
 // The result of a request.
-struct Drawn {
-  Wanted wanted;
+struct DrawnFrame {
+  FrameRequest request;
   record::Record record;
   core::Image image;         // empty unless the frame was measured
   core::RgbImage displayed;  // the image as displayed
@@ -53,7 +53,7 @@ struct LiveOptions {
 class LiveDevice {
  public:
   struct State {
-    std::shared_ptr<const Drawn> drawn;  // the latest frame; nullptr if there is none yet
+    std::shared_ptr<const DrawnFrame> drawn;  // the latest frame; nullptr if there is none yet
     bool drawing = false;
     std::optional<measure::Loading> loading;  // set while a large data set is loading
   };
@@ -68,24 +68,25 @@ class LiveDevice {
   LiveDevice& operator=(const LiveDevice&) = delete;
 
   // Requests a frame. Cancels the previous request if its frame is not being drawn yet.
-  void draw(Wanted wanted);
+  void draw(FrameRequest request);
   [[nodiscard]] State state() const;
 
   // Lets the worker exit normally, without waiting for it. If the worker is drawing, it first
   // finishes its frame. If a signal has asked the program to stop, the worker is killed instead.
   void retire();
-  [[nodiscard]] bool is_gone() const { return gone_; }
+  [[nodiscard]] bool has_exited() const { return has_exited_; }
 
  private:
   void serve();
-  [[nodiscard]] std::optional<Wanted> next();
-  [[nodiscard]] Drawn drawn(const Wanted& wanted);
-  [[nodiscard]] record::Record measured(const Wanted& wanted, std::vector<std::byte>& exr);
+  [[nodiscard]] std::optional<FrameRequest> next();
+  [[nodiscard]] DrawnFrame draw_frame(const FrameRequest& request);
+  [[nodiscard]] record::Record measure_frame(const FrameRequest& request,
+                                             std::vector<std::byte>& exr);
   // Ensures that there is a worker whose clock is calibrated for this kind of work. Returns false
   // if no worker could be started.
-  [[nodiscard]] bool open_for(const std::string& kind);
-  [[nodiscard]] measure::Job job(const Wanted& wanted) const;
-  void publish(const std::function<void(State&)>& change);
+  [[nodiscard]] bool open_worker(const std::string& kind);
+  [[nodiscard]] measure::Job job(const FrameRequest& request) const;
+  void update_state(const std::function<void(State&)>& change);
 
   LiveOptions options_;
   std::string device_;
@@ -96,9 +97,9 @@ class LiveDevice {
 
   mutable std::mutex mutex_;
   std::condition_variable wake_;
-  std::optional<Wanted> wanted_;
+  std::optional<FrameRequest> request_;
   bool stop_ = false;
-  std::atomic<bool> gone_ = false;  // whether the worker has exited
+  std::atomic<bool> has_exited_ = false;  // whether the worker has exited
   State state_;
   std::thread thread_;  // the last member, because its code uses all other members
 };

@@ -16,7 +16,7 @@
 namespace triptych::view {
 namespace {
 
-struct Asked {
+struct ReferenceRequest {
   std::string key;
   measure::Configuration factors;
   std::map<std::string, double> precision;
@@ -36,7 +36,7 @@ struct References::Shared {
 
   std::mutex mutex;
   std::condition_variable wake;
-  std::vector<Asked> asked;
+  std::vector<ReferenceRequest> requests;
   std::map<std::string, std::shared_ptr<const Reference>> ready;  // by key_of
   bool stop = false;
 
@@ -44,16 +44,16 @@ struct References::Shared {
   // this member.
   std::deque<std::pair<std::string, std::shared_ptr<const Reference>>> rendered = {};
 
-  [[nodiscard]] std::shared_ptr<const Reference> reference(const Asked& wanted) {
-    constexpr std::size_t most_kept = 16;
-    const std::string key = suite->truth_key(wanted.factors, wanted.precision);
+  [[nodiscard]] std::shared_ptr<const Reference> reference(const ReferenceRequest& request) {
+    constexpr std::size_t max_kept = 16;
+    const std::string key = suite->truth_key(request.factors, request.precision);
     const auto known =
         std::ranges::find(rendered, key, [](const auto& each) { return each.first; });
     if (known != rendered.end()) return known->second;
     auto made = std::make_shared<const Reference>(
-        Reference{.pair = suite->truth(wanted.factors, wanted.precision), .error = {}});
+        Reference{.pair = suite->truth(request.factors, request.precision), .error = {}});
     rendered.emplace_back(key, made);
-    if (rendered.size() > most_kept) rendered.pop_front();
+    if (rendered.size() > max_kept) rendered.pop_front();
     return made;
   }
 };
@@ -79,15 +79,15 @@ void References::show(const std::vector<const record::Record*>& records) {
   {
     const std::lock_guard lock(shared_->mutex);
     std::map<std::string, std::shared_ptr<const Reference>> kept;
-    shared_->asked.clear();
+    shared_->requests.clear();
     for (const record::Record* record : records) {
-      Asked wanted{key_of(*record), record->factors, record->precision};
-      if (kept.contains(wanted.key)) continue;
-      const auto known = shared_->ready.find(wanted.key);
+      ReferenceRequest request{key_of(*record), record->factors, record->precision};
+      if (kept.contains(request.key)) continue;
+      const auto known = shared_->ready.find(request.key);
       if (known != shared_->ready.end())
         kept.insert(*known);
       else
-        shared_->asked.push_back(std::move(wanted));
+        shared_->requests.push_back(std::move(request));
     }
     shared_->ready = std::move(kept);
   }
@@ -105,22 +105,22 @@ void References::serve(const std::shared_ptr<Shared>& shared) {
   ::setpriority(PRIO_PROCESS, 0, lower_priority);  // on Linux, affects this thread and its children
   for (;;) {
     std::unique_lock lock(shared->mutex);
-    shared->wake.wait(lock, [&] { return shared->stop || !shared->asked.empty(); });
+    shared->wake.wait(lock, [&] { return shared->stop || !shared->requests.empty(); });
     if (shared->stop) return;
-    const Asked wanted = shared->asked.front();
+    const ReferenceRequest request = shared->requests.front();
     lock.unlock();
     std::shared_ptr<const Reference> reference;
     try {
-      reference = shared->reference(wanted);
+      reference = shared->reference(request);
     } catch (const std::exception& error) {
       reference = std::make_shared<const Reference>(Reference{.pair = {}, .error = error.what()});
     }
     lock.lock();
     // If the window now shows another configuration, this image is no longer needed.
-    const auto done = std::ranges::find(shared->asked, wanted.key, &Asked::key);
-    if (done == shared->asked.end()) continue;
-    shared->asked.erase(done);
-    shared->ready.emplace(wanted.key, std::move(reference));
+    const auto done = std::ranges::find(shared->requests, request.key, &ReferenceRequest::key);
+    if (done == shared->requests.end()) continue;
+    shared->requests.erase(done);
+    shared->ready.emplace(request.key, std::move(reference));
     const auto changed = shared->changed;
     lock.unlock();
     changed();

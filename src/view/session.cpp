@@ -27,12 +27,12 @@ LiveOptions live_options(const measure::ViewRequest& request) {
 
 // Returns the free view (azimuth, elevation and distance) that is nearest to a camera. Cameras such
 // as "own" can be resolved only by the worker; for these, returns the free view for the default
-// camera `standard`.
-scene::FreeView view_of(const std::string& camera, const std::string& standard) {
+// camera `default_camera`.
+scene::FreeView view_of(const std::string& camera, const std::string& default_camera) {
   try {
     return scene::free_view_near(camera);
   } catch (const core::InputError&) {
-    return scene::free_view_near(standard);
+    return scene::free_view_near(default_camera);
   }
 }
 
@@ -44,9 +44,9 @@ Session::Session(const measure::ViewRequest& request, Suites suites,
       options_(live_options(request)),
       interrupts_(interrupts),
       changed_(std::move(changed)),
-      suite_(std::move(suites.checks)),
+      suite_(std::move(suites.for_choices)),
       choices_(*suite_, request.configuration),
-      references_(std::move(suites.renders), changed_) {
+      references_(std::move(suites.for_references), changed_) {
   for (const measure::ViewSide& side : request.sides) columns_.push_back(make_column(side));
 }
 
@@ -54,7 +54,7 @@ Column Session::make_column(const measure::ViewSide& side) {
   Column column;
   column.side = side;
   column.live = std::make_unique<LiveDevice>(side, options_, interrupts_, changed_);
-  if (asked_.number > 0) column.live->draw(asked_);
+  if (latest_request_.number > 0) column.live->draw(latest_request_);
   return column;
 }
 
@@ -102,28 +102,28 @@ std::vector<measure::ViewSide> Session::sides() const {
 }
 
 void Session::set_camera(const std::string& camera, Clock::time_point now) {
-  if (choices_.set("camera", camera).empty()) rests_at_ = now + rest;
+  if (choices_.set("camera", camera).empty()) camera_rests_at_ = now + rest;
 }
 
 void Session::turn(double right, double down, Clock::time_point now) {
-  const scene::FreeView view = view_of(choices_.value("camera"), choices_.standard("camera"));
+  const scene::FreeView view = view_of(choices_.value("camera"), choices_.default_level("camera"));
   set_camera(scene::camera_of(scene::turned(view, right, down)), now);
 }
 
 void Session::approach(double notches, Clock::time_point now) {
-  const scene::FreeView view = view_of(choices_.value("camera"), choices_.standard("camera"));
+  const scene::FreeView view = view_of(choices_.value("camera"), choices_.default_level("camera"));
   set_camera(scene::camera_of(scene::approached(view, notches)), now);
 }
 
-void Session::ask(bool moving) {
-  asked_ = {.number = asked_.number + 1,
-            .configuration = choices_.configuration(),
-            .key = choices_.key(),
-            .moving = moving};
-  for (Column& each : columns_) each.live->draw(asked_);
+void Session::request_frames(bool moving) {
+  latest_request_ = {.number = latest_request_.number + 1,
+                     .configuration = choices_.configuration(),
+                     .key = choices_.key(),
+                     .moving = moving};
+  for (Column& each : columns_) each.live->draw(latest_request_);
 }
 
-bool Session::take_over(Column& column) {
+bool Session::collect_frame(Column& column) {
   LiveDevice::State state = column.live->state();
   const bool changed = state.drawn != column.shown || state.drawing != column.state.drawing ||
                        state.loading.has_value() || column.state.loading.has_value();
@@ -136,15 +136,17 @@ bool Session::take_over(Column& column) {
 }
 
 bool Session::update(Clock::time_point now) {
-  const bool moving = rests_at_ && now < *rests_at_;
-  if (!moving) rests_at_.reset();
-  if (choices_.configuration() != asked_.configuration || (asked_.moving && !moving)) ask(moving);
-  std::erase_if(retired_, [](const auto& each) { return each->is_gone(); });
+  const bool moving = camera_rests_at_ && now < *camera_rests_at_;
+  if (!moving) camera_rests_at_.reset();
+  if (choices_.configuration() != latest_request_.configuration ||
+      (latest_request_.moving && !moving))
+    request_frames(moving);
+  std::erase_if(retired_, [](const auto& each) { return each->has_exited(); });
   bool changed = false;
   std::vector<const record::Record*> judged;
   for (Column& each : columns_) {
-    changed = take_over(each) || changed;
-    if (each.shown && each.shown->has_image() && !each.shown->wanted.moving) {
+    changed = collect_frame(each) || changed;
+    if (each.shown && each.shown->has_image() && !each.shown->request.moving) {
       judged.push_back(&each.shown->record);
     }
   }
@@ -157,14 +159,14 @@ bool Session::update(Clock::time_point now) {
 }
 
 std::optional<Session::Clock::time_point> Session::next_update() const {
-  return rests_at_;
+  return camera_rests_at_;
 }
 
 // Returns the reason why a column cannot be compared, or an empty string if it can be compared.
 std::string Session::why_not_compared(std::size_t index) const {
   const Column& column = columns_[index];
   if (!column.shown || !column.shown->has_image()) return "no image";
-  if (column.shown->wanted.moving) return "the camera is moving";
+  if (column.shown->request.moving) return "the camera is moving";
   if (against_ == index) return "the other devices are compared with this one";
   const auto wait_for = [](const Column& each) -> std::string {
     if (!each.reference) return "the reference image is being rendered";
@@ -173,7 +175,7 @@ std::string Session::why_not_compared(std::size_t index) const {
   if (std::string waiting = wait_for(column); !waiting.empty()) return waiting;
   if (!against_) return {};
   const Column& other = columns_[*against_];
-  if (!other.shown || other.shown->wanted.number != column.shown->wanted.number) {
+  if (!other.shown || other.shown->request.number != column.shown->request.number) {
     return fmt::format("waiting for the frame from {}", other.side.device);
   }
   if (!other.shown->has_image()) return fmt::format("no image from {}", other.side.device);
@@ -214,16 +216,16 @@ bool Session::refresh_error(std::size_t index) {
   return true;
 }
 
-bool Session::settled() const {
-  return !rests_at_ && std::ranges::all_of(columns_, [&](const Column& each) {
-    if (!each.shown || each.shown->wanted.number != asked_.number) return false;
+bool Session::is_settled() const {
+  return !camera_rests_at_ && std::ranges::all_of(columns_, [&](const Column& each) {
+    if (!each.shown || each.shown->request.number != latest_request_.number) return false;
     const bool is_waiting = each.shown->has_image() && !each.reference;
     return !is_waiting;
   });
 }
 
 std::string Session::command(const Column& column, std::optional<std::pair<int, int>> pixel) const {
-  const std::string key = column.shown ? column.shown->wanted.key : choices_.key();
+  const std::string key = column.shown ? column.shown->request.key : choices_.key();
   return render_command(request_, column.side, key, pixel);
 }
 

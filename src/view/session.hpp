@@ -23,7 +23,7 @@ struct Column {
   measure::ViewSide side;
   std::unique_ptr<LiveDevice> live;
   LiveDevice::State state = {};
-  std::shared_ptr<const Drawn> shown = {};          // the displayed frame
+  std::shared_ptr<const DrawnFrame> shown = {};     // the displayed frame
   std::shared_ptr<const Reference> reference = {};  // nullptr until it is rendered
   std::shared_ptr<const ShownError> error = {};     // if nullptr, see `why_no_error`
   std::string why_no_error = {};
@@ -39,11 +39,11 @@ struct Column {
   Inputs inputs = {};
 };
 
-// Two objects for the same suite, because two threads use them. `checks` checks the levels that the
-// user types, and `renders` renders reference images on a second thread.
+// Two objects for the same suite, because two threads use them. `for_choices` checks the levels
+// that the user types, and `for_references` renders reference images on a second thread.
 struct Suites {
-  std::unique_ptr<measure::SuiteWithTruth> checks;
-  std::unique_ptr<measure::SuiteWithTruth> renders;
+  std::unique_ptr<measure::SuiteWithTruth> for_choices;
+  std::unique_ptr<measure::SuiteWithTruth> for_references;
 };
 
 class Session {
@@ -89,7 +89,7 @@ class Session {
   [[nodiscard]] std::optional<Clock::time_point> next_update() const;
   // Returns whether all columns show the current configuration, and the error of each image has
   // been computed.
-  [[nodiscard]] bool settled() const;
+  [[nodiscard]] bool is_settled() const;
 
   // Returns the command that draws a column's frame, or that explains one of its pixels.
   [[nodiscard]] std::string command(const Column& column,
@@ -97,8 +97,8 @@ class Session {
 
  private:
   void set_camera(const std::string& camera, Clock::time_point now);
-  void ask(bool moving);
-  [[nodiscard]] bool take_over(Column& column);
+  void request_frames(bool moving);
+  [[nodiscard]] bool collect_frame(Column& column);
   [[nodiscard]] bool refresh_error(std::size_t index);
   [[nodiscard]] std::string why_not_compared(std::size_t index) const;
   [[nodiscard]] Column make_column(const measure::ViewSide& side);
@@ -114,8 +114,8 @@ class Session {
   std::vector<Column> columns_;
   std::vector<std::unique_ptr<LiveDevice>> retired_;  // devices of columns that have been removed
   std::optional<std::size_t> against_;
-  Wanted asked_;  // the latest request to all columns
-  std::optional<Clock::time_point> rests_at_;
+  FrameRequest latest_request_;  // the latest request to all columns
+  std::optional<Clock::time_point> camera_rests_at_;
 };
 
 }  // namespace triptych::view

@@ -22,7 +22,7 @@ core::Json column_json(const Session& session, const Column& column) {
                   {"command", session.command(column)}};
   if (!column.shown) return json;
   const record::Record& record = column.shown->record;
-  json["configuration"] = column.shown->wanted.key;
+  json["configuration"] = column.shown->request.key;
   json["outcome"] = record::name_of(record.outcome);
   if (record.outcome != record::Outcome::measured) {
     json["reason"] = report::words::text_of(record.reason);

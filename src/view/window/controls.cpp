@@ -12,7 +12,7 @@
 namespace triptych::view {
 namespace {
 
-void explain(const measure::Factor& factor, const std::string& standard) {
+void show_factor_tooltip(const measure::Factor& factor, const std::string& default_level) {
   if (!ImGui::IsItemHovered()) return;
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(24 * ImGui::GetFontSize());
@@ -20,26 +20,26 @@ void explain(const measure::Factor& factor, const std::string& standard) {
   if (factor.kind == measure::FactorKind::number) {
     ImGui::TextUnformatted(fmt::format("{} to {}", factor.minimum, factor.maximum).c_str());
   }
-  ImGui::TextColored(colours::quiet, "default: %s", standard.c_str());
+  ImGui::TextColored(colours::quiet, "default: %s", default_level.c_str());
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }
 
 // Draws the factor's name, which is bright if the factor does not have its default level.
 void draw_label(const Choices& choices, const measure::Factor& factor) {
-  const std::string& standard = choices.standard(factor.name);
-  const bool changed = choices.value(factor.name) != standard;
+  const std::string& default_level = choices.default_level(factor.name);
+  const bool changed = choices.value(factor.name) != default_level;
   ImGui::AlignTextToFramePadding();
   if (changed) {
     ImGui::TextUnformatted(factor.name.c_str());
   } else {
     ImGui::TextColored(colours::quiet, "%s", factor.name.c_str());
   }
-  explain(factor, standard);
+  show_factor_tooltip(factor, default_level);
 }
 
 // Returns the width of the longest name, plus some space after it.
-float labels_of(const measure::Suite& suite) {
+float label_width(const measure::Suite& suite) {
   float width = 0;
   for (const measure::Factor& each : suite.factors()) {
     width = std::max(width, ImGui::CalcTextSize(each.name.c_str()).x);
@@ -48,9 +48,9 @@ float labels_of(const measure::Suite& suite) {
 }
 
 // Returns the level that the user has chosen, or an empty string if nothing was chosen.
-std::string choose(const std::vector<std::string>& offers, const std::string& now) {
+std::string selected_level(const std::vector<std::string>& offered_levels, const std::string& now) {
   std::string chosen;
-  for (const std::string& each : offers) {
+  for (const std::string& each : offered_levels) {
     if (ImGui::Selectable(each.c_str(), each == now)) chosen = each;
     if (each == now && ImGui::IsWindowAppearing()) ImGui::SetScrollHereY();
   }
@@ -82,7 +82,7 @@ void Controls::draw_text(Choices& choices, const measure::Factor& factor, float 
   if (ImGui::BeginCombo("##offers", "",
                         ImGuiComboFlags_NoPreview | ImGuiComboFlags_HeightLarge |
                             ImGuiComboFlags_PopupAlignLeft)) {
-    const std::string chosen = choose(choices.offers(factor.name), now);
+    const std::string chosen = selected_level(choices.offered_levels(factor.name), now);
     if (!chosen.empty()) apply(choices, factor.name, chosen);
     ImGui::EndCombo();
   }
@@ -92,13 +92,13 @@ void Controls::draw_factor(Choices& choices, const measure::Factor& factor) {
   ImGui::PushID(factor.name.c_str());
   draw_label(choices, factor);
   const float whole = ImGui::GetWindowContentRegionMax().x;
-  const float left = labels_;
+  const float left = label_width_;
   ImGui::SameLine(left);
   if (factor.kind == measure::FactorKind::choice) {
     const std::string now = choices.value(factor.name);
     ImGui::SetNextItemWidth(whole - left);
     if (ImGui::BeginCombo("##value", now.c_str(), ImGuiComboFlags_HeightLarge)) {
-      const std::string chosen = choose(choices.offers(factor.name), now);
+      const std::string chosen = selected_level(choices.offered_levels(factor.name), now);
       if (!chosen.empty()) apply(choices, factor.name, chosen);
       ImGui::EndCombo();
     }
@@ -130,18 +130,18 @@ void Controls::draw_against(Session& session) {
 }
 
 void Controls::draw_columns(Session& session) const {
-  constexpr std::size_t most_columns = 4;
+  constexpr std::size_t max_columns = 4;
   const std::size_t count = session.columns().size();
   ImGui::AlignTextToFramePadding();
   ImGui::TextColored(colours::quiet, "columns");
-  ImGui::SameLine(labels_);
+  ImGui::SameLine(label_width_);
   ImGui::BeginDisabled(count <= 1);
   if (ImGui::Button("-", {ImGui::GetFrameHeight(), 0})) session.remove_column(count - 1);
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::Text("%zu", count);
   ImGui::SameLine();
-  ImGui::BeginDisabled(count >= most_columns);
+  ImGui::BeginDisabled(count >= max_columns);
   if (ImGui::Button("+", {ImGui::GetFrameHeight(), 0})) {
     const auto sides = session.sides();
     session.add_column(sides[count % sides.size()]);
@@ -151,11 +151,11 @@ void Controls::draw_columns(Session& session) const {
 
 float Controls::width(const Session& session) {
   constexpr float values = 11;  // in multiples of the font size
-  return labels_of(session.choices().suite()) + values * ImGui::GetFontSize();
+  return label_width(session.choices().suite()) + values * ImGui::GetFontSize();
 }
 
 void Controls::draw(Session& session) {
-  labels_ = labels_of(session.choices().suite());
+  label_width_ = label_width(session.choices().suite());
   Choices& choices = session.choices();
   for (const measure::Factor& factor : choices.suite().factors()) draw_factor(choices, factor);
   if (ImGui::Button("Reset", {-1, 0})) {

@@ -22,7 +22,7 @@ class Controls {
   static void draw_against(Session& session);
   void draw_columns(Session& session) const;
 
-  float labels_ = 0;                          // width of the factors' names
+  float label_width_ = 0;                     // width of the factors' names
   std::map<std::string, std::string> typed_;  // text that is being typed, by factor
   std::string refused_factor_;
   std::string refusal_;  // the reason why the latest change was rejected

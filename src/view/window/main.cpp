@@ -109,7 +109,7 @@ class Loop {
     while (!window_.is_closed() && !interrupts_.take()) {
       sleep();
       if (session_.update(Session::Clock::now())) frames_due_ = frames_after_input;
-      const bool capture = !session_.request().screenshot.empty() && session_.settled();
+      const bool capture = !session_.request().screenshot.empty() && session_.is_settled();
       if (capture) frames_due_ = std::max(frames_due_, 1);
       if (frames_due_ == 0) continue;
       window_.begin_frame();

@@ -21,14 +21,14 @@ std::string grouped(std::uint64_t value) {
   return digits;
 }
 
-void right_aligned(const ImVec4& colour, const std::string& text) {
+void draw_right_aligned(const ImVec4& colour, const std::string& text) {
   const float room = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
   if (room > 0) ImGui::SetCursorPosX(ImGui::GetCursorPosX() + room);
   ImGui::TextColored(colour, "%s", text.c_str());
 }
 
-void row(const std::string& name, const ImVec4& colour, const std::string& value,
-         const std::string& explanation) {
+void draw_row(const std::string& name, const ImVec4& colour, const std::string& value,
+              const std::string& explanation) {
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::TextColored(colours::quiet, "%s", name.c_str());
@@ -36,36 +36,37 @@ void row(const std::string& name, const ImVec4& colour, const std::string& value
     ImGui::SetTooltip("%s", explanation.c_str());
   }
   ImGui::TableNextColumn();
-  right_aligned(colour, value);
+  draw_right_aligned(colour, value);
 }
 
 std::string milliseconds(double ns) {
   return fmt::format("{:.3f} ms", ns / 1e6);
 }
 
-void time_row(const record::Record& record) {
+void draw_time_row(const record::Record& record) {
   const auto summary = record::summarise(record.time_ns());
   if (!summary) return;
-  row("frame", ImGui::GetStyleColorVec4(ImGuiCol_Text), milliseconds(summary->median),
+  draw_row(
+      "frame", ImGui::GetStyleColorVec4(ImGuiCol_Text), milliseconds(summary->median),
       fmt::format("median of {} frames on the {} clock; range {} to {}", record.time_ns().size(),
                   record.clock(), milliseconds(summary->minimum), milliseconds(summary->maximum)));
 }
 
 // Returns the value of the same counter in the first column. Returns nullptr if this is the first
 // column or if the first column shows another frame.
-const std::uint64_t* counted_first(const Session& session, std::size_t index,
-                                   const std::string& name) {
+const std::uint64_t* first_column_counter(const Session& session, std::size_t index,
+                                          const std::string& name) {
   const Column& first = session.columns().front();
   const Column& column = session.columns()[index];
   if (index == 0 || !first.shown || !column.shown) return nullptr;
-  if (first.shown->wanted.number != column.shown->wanted.number) return nullptr;
+  if (first.shown->request.number != column.shown->request.number) return nullptr;
   const auto found = first.shown->record.counters.find(name);
   return found == first.shown->record.counters.end() ? nullptr : &found->second;
 }
 
-bool differ(std::uint64_t a, std::uint64_t b) {
-  const double apart = std::abs(static_cast<double>(a) - static_cast<double>(b));
-  return apart > judge::counters_across_devices * static_cast<double>(b);
+bool differ_too_much(std::uint64_t a, std::uint64_t b) {
+  const double distance = std::abs(static_cast<double>(a) - static_cast<double>(b));
+  return distance > judge::counters_across_devices * static_cast<double>(b);
 }
 
 }  // namespace
@@ -78,18 +79,19 @@ void draw_numbers(const Session& session, std::size_t index) {
   if (!ImGui::BeginTable("numbers", 2, ImGuiTableFlags_ScrollY)) return;
   ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 1.7F);
   ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 1);
-  time_row(record);
+  draw_time_row(record);
   for (const auto& [name, value] : record.counters) {
-    const std::uint64_t* const first = counted_first(session, index, name);
-    const bool other = first != nullptr && !judge::depends_on_api(name) && differ(value, *first);
-    row(name, other ? colours::wrong : plain, grouped(value),
-        other ? fmt::format("differs from the first column: {}", grouped(*first)) : "");
+    const std::uint64_t* const first = first_column_counter(session, index, name);
+    const bool differs =
+        first != nullptr && !judge::depends_on_api(name) && differ_too_much(value, *first);
+    draw_row(name, differs ? colours::wrong : plain, grouped(value),
+             differs ? fmt::format("differs from the first column: {}", grouped(*first)) : "");
   }
   for (const auto& [name, value] : record.statistics) {
-    row(name, colours::quiet, grouped(value), "reported by the driver");
+    draw_row(name, colours::quiet, grouped(value), "reported by the driver");
   }
   for (const auto& [name, value] : record.memory) {
-    row(name, colours::quiet, grouped(value) + " B", "memory allocated on the device");
+    draw_row(name, colours::quiet, grouped(value) + " B", "memory allocated on the device");
   }
   ImGui::EndTable();
 }

@@ -28,13 +28,13 @@ Panels::Place fitted(ImVec2 corner, ImVec2 area, int width, int height) {
   return {from, {from.x + size.x, from.y + size.y}};
 }
 
-void frame(const Panels::Place& place) {
+void draw_border(const Panels::Place& place) {
   ImGui::GetWindowDrawList()->AddRect({place.from.x - 1, place.from.y - 1},
                                       {place.to.x + 1, place.to.y + 1}, colours::frame);
 }
 
 // Draws text in the centre of a rectangle.
-void say(const Panels::Place& place, const ImVec4& colour, const std::string& text) {
+void draw_message(const Panels::Place& place, const ImVec4& colour, const std::string& text) {
   const float margin = ImGui::GetFontSize();
   const float width = place.to.x - place.from.x - 2 * margin;
   const std::string shown = core::printable(text, 300);
@@ -81,7 +81,7 @@ std::string rgba(const core::Image& image, std::pair<int, int> at) {
   return fmt::format("{:.5f} {:.5f} {:.5f} {:.5f}", r, g, b, a);
 }
 
-void explain_pixel(const Column& column, std::pair<int, int> at) {
+void show_pixel_tooltip(const Column& column, std::pair<int, int> at) {
   if (!column.shown || !column.shown->has_image()) return;
   ImGui::BeginTooltip();
   ImGui::Text("pixel %d,%d", at.first, at.second);
@@ -131,7 +131,7 @@ void Panels::draw_header(Session& session, std::size_t index) {
   }
 }
 
-void Panels::steer(Session& session, const Column& column, const Place& place) {
+void Panels::handle_mouse(Session& session, const Column& column, const Place& place) {
   const auto now = Session::Clock::now();
   const ImGuiIO& io = ImGui::GetIO();
   if (ImGui::IsItemActive() && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 0)) {
@@ -145,10 +145,11 @@ void Panels::steer(Session& session, const Column& column, const Place& place) {
   const bool quiet =
       ImGui::IsMouseDown(ImGuiMouseButton_Left) || !session.request().screenshot.empty();
   if (!column.shown || quiet) return;
-  if (const auto at = pixel_under_mouse(place, column.shown->image)) explain_pixel(column, *at);
+  if (const auto at = pixel_under_mouse(place, column.shown->image))
+    show_pixel_tooltip(column, *at);
 }
 
-void Panels::offer_commands(Session& session, const Column& column, const Place& place) {
+void Panels::draw_command_menu(Session& session, const Column& column, const Place& place) {
   if (!column.shown) return;
   const auto at = pixel_under_mouse(place, column.shown->image);
   if (at && ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) {
@@ -171,7 +172,7 @@ void Panels::draw_image(Session& session, std::size_t index, bool reference, ImV
   const Place place = drawn ? fitted(corner, area, uploaded.image.width(), uploaded.image.height())
                             : Place{corner, {corner.x + area.x, corner.y + area.y}};
   ImGui::InvisibleButton("image", area);
-  frame(place);
+  draw_border(place);
   images_[index] = place;
   if (!drawn) {
     const bool failed = column.shown != nullptr;
@@ -180,15 +181,15 @@ void Panels::draw_image(Session& session, std::size_t index, bool reference, ImV
         : column.state.loading
             ? fmt::format("loading the data: {:.0f} %", 100 * column.state.loading->share)
             : "starting the driver";
-    say(place, failed ? colours::wrong : colours::quiet, why);
+    draw_message(place, failed ? colours::wrong : colours::quiet, why);
   } else if (reference && column.reference && !uploaded.truth.is_empty()) {
     uploaded.truth.draw(place.from, place.to);
     caption(place, "reference image");
   } else {
     uploaded.image.draw(place.from, place.to);
   }
-  steer(session, column, place);
-  offer_commands(session, column, place);
+  handle_mouse(session, column, place);
+  draw_command_menu(session, column, place);
 }
 
 void Panels::draw_error(Session& session, std::size_t index, ImVec2 area) {
@@ -200,9 +201,10 @@ void Panels::draw_error(Session& session, std::size_t index, ImVec2 area) {
       shown ? fitted(corner, area, uploaded.difference.width(), uploaded.difference.height())
             : Place{corner, {corner.x + area.x, corner.y + area.y}};
   ImGui::InvisibleButton("error", area);
-  frame(place);
+  draw_border(place);
   if (!shown) {
-    say(place, colours::quiet, column.error ? column.error->sentence : column.why_no_error);
+    draw_message(place, colours::quiet,
+                 column.error ? column.error->sentence : column.why_no_error);
   } else {
     uploaded.difference.draw(place.from, place.to);
     const auto against = session.against();
@@ -218,8 +220,8 @@ void Panels::draw_error(Session& session, std::size_t index, ImVec2 area) {
     }
     caption(place, "difference from " + from);
   }
-  steer(session, column, place);
-  offer_commands(session, column, place);
+  handle_mouse(session, column, place);
+  draw_command_menu(session, column, place);
 }
 
 void Panels::draw_legend(float width) {
@@ -229,7 +231,7 @@ void Panels::draw_legend(float width) {
   if (scale_.is_empty()) scale_.set(scale_of_bounds(steps));
   const float height = std::floor(0.55F * ImGui::GetFontSize());
   scale_.draw(from, {from.x + width, from.y + height});
-  frame({from, {from.x + width, from.y + height}});
+  draw_border({from, {from.x + width, from.y + height}});
   ImGui::Dummy({width, height});
   const float line = ImGui::GetCursorScreenPos().y;
   const auto label = [&](float x, const char* text, float shift) {
@@ -274,12 +276,12 @@ void Panels::draw(Session& session, bool reference) {
   images_.resize(count);
   // The height is divided between two square images and some lines of numbers.
   const float line = ImGui::GetFrameHeightWithSpacing();
-  constexpr float lines_of_numbers = 7.5F;
+  constexpr float number_lines = 7.5F;
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float spacing = ImGui::GetStyle().ItemSpacing.x;
   const float width =
       std::floor((room.x - static_cast<float>(count - 1) * spacing) / static_cast<float>(count));
-  const float side = std::clamp(0.5F * (room.y - lines_of_numbers * line), 64.0F, width);
+  const float side = std::clamp(0.5F * (room.y - number_lines * line), 64.0F, width);
   for (std::size_t i = 0; i < session.columns().size(); ++i) {
     if (i > 0) ImGui::SameLine();
     ImGui::BeginChild(static_cast<ImGuiID>(i + 1), {width, room.y}, false,

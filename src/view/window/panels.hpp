@@ -48,8 +48,8 @@ class Panels {
   void draw_header(Session& session, std::size_t index);
   void draw_image(Session& session, std::size_t index, bool reference, ImVec2 area);
   void draw_error(Session& session, std::size_t index, ImVec2 area);
-  void steer(Session& session, const Column& column, const Place& place);
-  void offer_commands(Session& session, const Column& column, const Place& place);
+  void handle_mouse(Session& session, const Column& column, const Place& place);
+  void draw_command_menu(Session& session, const Column& column, const Place& place);
 
   std::function<void(const std::string&)> copy_;
   std::vector<Uploaded> uploaded_;

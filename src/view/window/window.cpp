@@ -23,11 +23,11 @@ std::string& last_reason() {
   return reason;
 }
 
-void keep_reason(int /*code*/, const char* text) {
+void store_glfw_error(int /*code*/, const char* text) {
   last_reason() = text;
 }
 
-[[noreturn]] void refuse(const std::string& what) {
+[[noreturn]] void throw_window_error(const std::string& what) {
   std::string reason = std::exchange(last_reason(), {});
   glfwTerminate();
   throw core::IoError(
@@ -77,12 +77,12 @@ Id texture_id(unsigned int name) {
 }  // namespace
 
 Window::Window(int width, int height, const std::string& title) {
-  glfwSetErrorCallback(keep_reason);
-  if (glfwInit() != GLFW_TRUE) refuse("there is no display");
+  glfwSetErrorCallback(store_glfw_error);
+  if (glfwInit() != GLFW_TRUE) throw_window_error("there is no display");
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
   window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  if (window_ == nullptr) refuse("OpenGL 3.0 is not available");
+  if (window_ == nullptr) throw_window_error("OpenGL 3.0 is not available");
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   float scale = 1;

@@ -52,11 +52,11 @@ TEST_F(ViewChoices, EveryOfferIsAccepted) {
                                       static_cast<const measure::Suite*>(particles.get())}) {
     Choices choices = choices_of(*suite);
     for (const measure::Factor& factor : suite->factors()) {
-      const std::vector<std::string>& offers = choices.offers(factor.name);
-      EXPECT_THAT(offers, Contains(choices.standard(factor.name))) << factor.name;
-      for (const std::string& offer : offers) {
-        if (factor.name == "data" && offer.find(':') == std::string::npos) continue;
-        EXPECT_EQ(choices.set(factor.name, offer), "") << factor.name << '=' << offer;
+      const std::vector<std::string>& offered_levels = choices.offered_levels(factor.name);
+      EXPECT_THAT(offered_levels, Contains(choices.default_level(factor.name))) << factor.name;
+      for (const std::string& add_level : offered_levels) {
+        if (factor.name == "data" && add_level.find(':') == std::string::npos) continue;
+        EXPECT_EQ(choices.set(factor.name, add_level), "") << factor.name << '=' << add_level;
         choices.reset();
       }
     }
@@ -65,12 +65,13 @@ TEST_F(ViewChoices, EveryOfferIsAccepted) {
 
 TEST_F(ViewChoices, OffersComeFromPlansAndGenerators) {
   const Choices choices = choices_of(*volume);
-  EXPECT_THAT(choices.offers("technique"), Not(Contains("auto")));
-  EXPECT_THAT(choices.offers("transfer_function"), Contains("surfaces"));
+  EXPECT_THAT(choices.offered_levels("technique"), Not(Contains("auto")));
+  EXPECT_THAT(choices.offered_levels("transfer_function"), Contains("surfaces"));
   for (const scene::GeneratorInfo& each : volume->generators()) {
-    EXPECT_THAT(choices.offers("data"), Contains(HasSubstr(std::string(each.name)))) << each.name;
+    EXPECT_THAT(choices.offered_levels("data"), Contains(HasSubstr(std::string(each.name))))
+        << each.name;
   }
-  const std::vector<std::string>& steps = choices.offers("step");
+  const std::vector<std::string>& steps = choices.offered_levels("step");
   ASSERT_GT(steps.size(), 2U);
   EXPECT_LT(std::stod(steps[0]), std::stod(steps[1]));
 }
