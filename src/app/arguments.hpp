@@ -34,9 +34,9 @@ struct Commands {
   };
   template <typename Arguments>
   Added<Arguments> add(const std::string& name, const std::string& summary,
-                       core::ExitCode (*run)(const Arguments&), Arguments standard = {}) {
-    auto kept = std::make_shared<Arguments>(std::move(standard));
-    return {add(name, summary, [run, kept] { return run(*kept); }), *kept};
+                       core::ExitCode (*run)(const Arguments&), Arguments defaults = {}) {
+    auto storage = std::make_shared<Arguments>(std::move(defaults));
+    return {add(name, summary, [run, storage] { return run(*storage); }), *storage};
   }
 };
 
@@ -59,10 +59,10 @@ void add_plan_option(CLI::App& command, Plans& plans) {
       ->required();
 }
 
-inline constexpr const char* standard_store = "triptych.sqlite";
+inline constexpr const char* default_store = "triptych.sqlite";
 
 // `git bisect run` skips a commit if its command exits with this code.
-inline constexpr auto bisect_skips = static_cast<core::ExitCode>(125);
+inline constexpr auto bisect_skip_code = static_cast<core::ExitCode>(125);
 
 // Adds --baselines. An empty name is rejected, because it would mean the current folder.
 void add_baselines_option(
@@ -81,7 +81,7 @@ void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
                        const std::string& help);
 
 // Adds --limit, the number of seconds after which `what` is treated as hung.
-inline constexpr int standard_limit_s = record::standard_limit.count();
+inline constexpr int default_limit_s = record::standard_limit.count();
 void add_limit_option(CLI::App& command, int& seconds, const std::string& what);
 
 // Adds --without-data.

@@ -22,7 +22,7 @@ std::string environment_text(const char* name) {
   return value == nullptr ? "" : value;
 }
 
-// Writes control sequences for the CI system to stderr, without escaping them as say() would.
+// Writes control sequences for the CI system to stderr, without escaping them as print_err() would.
 void write_control(const std::string& text) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
@@ -43,7 +43,7 @@ CiSystem ci_system(const std::string& name) {
   if (name == "github") return CiSystem::github;
   if (name == "gitlab") return CiSystem::gitlab;
   if (name == "none") return CiSystem::none;
-  if (name != standard_ci) {
+  if (name != default_ci) {
     throw core::InputError(fmt::format("--ci {}: expected auto, github, gitlab or none", name));
   }
   if (environment_text("GITHUB_ACTIONS") == "true") return CiSystem::github;
@@ -76,7 +76,7 @@ void add_to_job_summary(CiSystem system, const std::string& markdown) {
   if (system != CiSystem::github || file.empty()) return;
   std::ofstream out(file, std::ios::binary | std::ios::app);
   out << markdown << '\n' << std::flush;
-  if (!out) say("triptych: cannot write the job summary to {}\n", file);
+  if (!out) print_err("triptych: cannot write the job summary to {}\n", file);
 }
 
 LogSection::LogSection(CiSystem system, std::string title) : system_(system) {

@@ -13,7 +13,7 @@ enum class CiSystem : std::uint8_t { none, github, gitlab };
 
 // Adds --ci. Pass its value to ci_system().
 void add_ci_option(CLI::App& command, std::string& name);
-inline constexpr const char* standard_ci = "auto";
+inline constexpr const char* default_ci = "auto";
 // Returns the CI system with that name. "auto" detects the system from its environment variables.
 // Throws InputError for an unknown name.
 [[nodiscard]] CiSystem ci_system(const std::string& name);

@@ -26,7 +26,7 @@ struct CodeArguments {
   FrameArguments frame;
   bool brief = false;
   bool json = false;
-  int limit_s = standard_limit_s;
+  int limit_s = default_limit_s;
 };
 
 // Prints lines such as " Inverse Throughput 6486", the most important statistics first. `samples`
@@ -38,25 +38,26 @@ void print_statistics(const record::Executable& executable, bool samples) {
     return std::tuple(judge::code_statistic(each.first).rank, std::string_view(each.first));
   });
   for (const auto& [name, value] : statistics) {
-    put("  {:<28} {:g}\n", name, value);
+    print_out("  {:<28} {:g}\n", name, value);
   }
   const bool disassembled = !executable.assembly.empty();
   if (samples && disassembled && !executable.statistics.contains("Loop instructions")) {
-    put("  the sampling loop could not be identified, so the number of instructions per iteration "
+    print_out(
+        "  the sampling loop could not be identified, so the number of instructions per iteration "
         "is not reported\n");
   }
 }
 
 void print_text(const record::Device& device, const record::Record& record,
                 const record::Store& store, bool brief) {
-  put("{}: {}, driver {}{}\n", device.id, device.name, device.driver_version,
-      device.compiles_for.empty() ? "" : "; compiles code but cannot execute it");
-  put("{}\n", record.configuration);
+  print_out("{}: {}, driver {}{}\n", device.id, device.name, device.driver_version,
+            device.compiles_for.empty() ? "" : "; compiles code but cannot execute it");
+  print_out("{}\n", record.configuration);
   for (const auto& [name, executable] : record.code) {
-    put("\n{}\n", name);
+    print_out("\n{}\n", name);
     print_statistics(executable, record.suite == "volume" && !name.ends_with(".vert"));
     if (brief || executable.assembly.empty()) continue;
-    put_lines("\n" + store.listing(executable.assembly).value_or("") + "\n");
+    print_lines("\n" + store.listing(executable.assembly).value_or("") + "\n");
   }
 }
 

@@ -23,7 +23,7 @@ namespace triptych::app {
 namespace {
 
 struct CompareArguments {
-  Comparing comparing;
+  ComparisonRequest request;
   std::string a;
   std::string b;
   std::string a_program;
@@ -63,40 +63,41 @@ std::vector<record::Record> records_of_all_devices(const record::Store& store,
   std::ranges::reverse(runs);
   for (const record::Run& run : runs) {
     if (run.plan != latest.plan || run.plan_hash != latest.plan_hash) continue;
-    std::set<std::string> fresh;
+    std::set<std::string> new_devices;
     for (const auto& entry : store.devices(run.id)) {
-      if (!devices.contains(entry.device.id)) fresh.insert(entry.device.id);
+      if (!devices.contains(entry.device.id)) new_devices.insert(entry.device.id);
     }
-    if (fresh.empty()) continue;
+    if (new_devices.empty()) continue;
     for (record::Record& record : store.records(run.id)) {
-      if (fresh.contains(record.device)) records.push_back(std::move(record));
+      if (new_devices.contains(record.device)) records.push_back(std::move(record));
     }
-    devices.merge(fresh);
+    devices.merge(new_devices);
   }
   return records;
 }
 
 // Prints, for the latest run of each plan, a table that compares all devices with each other.
-core::ExitCode show_apis(const CompareArguments& arguments) {
-  const Comparing& comparing = arguments.comparing;
-  if (comparing.store.empty()) {
+core::ExitCode print_api_table(const CompareArguments& arguments) {
+  const ComparisonRequest& request = arguments.request;
+  if (request.store.empty()) {
     throw core::InputError("--apis needs --store FILE; create the store with `triptych run`");
   }
-  const record::Store store = open_to_judge(comparing.store);
-  std::set<std::string> asked;
-  for (const std::string& plan : comparing.plans) {
-    asked.insert(latest_run_of(store, plan, comparing.store));
+  const record::Store store = open_to_judge(request.store);
+  std::set<std::string> requested_runs;
+  for (const std::string& plan : request.plans) {
+    requested_runs.insert(latest_run_of(store, plan, request.store));
   }
   core::Json json = core::Json::object();
   for (const record::Run& run : latest_runs(store)) {
-    if (!asked.empty() && !asked.contains(run.id)) continue;
+    if (!requested_runs.empty() && !requested_runs.contains(run.id)) continue;
     const auto table = comparison::side_by_side(records_of_all_devices(store, run));
     if (!table) continue;
     json[run.plan] = report::to_json(*table);
-    if (!arguments.json) put_lines(fmt::format("{}\n\n{}\n", run.plan, report::screen_of(*table)));
+    if (!arguments.json)
+      print_lines(fmt::format("{}\n\n{}\n", run.plan, report::screen_of(*table)));
   }
   if (json.empty()) {
-    throw core::NotSupported(comparing.store +
+    throw core::NotSupported(request.store +
                              ": no configuration was measured on more than one device");
   }
   if (arguments.json) print(json);
@@ -104,23 +105,23 @@ core::ExitCode show_apis(const CompareArguments& arguments) {
 }
 
 core::ExitCode compare(const CompareArguments& arguments) {
-  if (arguments.apis) return show_apis(arguments);
+  if (arguments.apis) return print_api_table(arguments);
   if (arguments.a.empty() || arguments.b.empty()) {
     throw core::InputError("compare needs either two sides (--a and --b) or --apis with --store");
   }
-  Comparing comparing = arguments.comparing;
-  comparing.a = parse_side("--a", arguments.a, arguments.a_program);
-  comparing.b = parse_side("--b", arguments.b, arguments.b_program);
-  comparing.times = !arguments.no_times;
+  ComparisonRequest request = arguments.request;
+  request.a = parse_side("--a", arguments.a, arguments.a_program);
+  request.b = parse_side("--b", arguments.b, arguments.b_program);
+  request.times = !arguments.no_times;
   for (const auto& [option, value] : {std::pair{"--a", arguments.a},
                                       {"--b", arguments.b},
                                       {"--a-program", arguments.a_program},
                                       {"--b-program", arguments.b_program}}) {
     if (value.empty()) continue;
-    const char* const space = comparing.sides.empty() ? "" : " ";
-    comparing.sides += fmt::format("{}{} {}", space, option, core::shell_quoted(value));
+    const char* const space = request.sides.empty() ? "" : " ";
+    request.sides += fmt::format("{}{} {}", space, option, core::shell_quoted(value));
   }
-  return compare_and_tell({comparing}, arguments.json);
+  return compare_and_print({request}, arguments.json);
 }
 
 struct DiffArguments {
@@ -136,7 +137,7 @@ core::ExitCode diff(const DiffArguments& arguments) {
   record::Store b = open_to_judge(arguments.b);
   measure::Truths truths(registry.find_suite(), b);
   const comparison::StoreDiff found = comparison::diff_stores(a, b, arguments.devices, truths);
-  if (found.devices.empty() && found.only_one.empty()) {
+  if (found.devices.empty() && found.one_sided.empty()) {
     throw core::NotSupported(fmt::format("neither {} nor {} contains a run{}", arguments.a,
                                          arguments.b,
                                          arguments.devices.empty() ? "" : " on a matching device"));
@@ -144,7 +145,7 @@ core::ExitCode diff(const DiffArguments& arguments) {
   if (arguments.json) {
     print(report::to_json(found));
   } else {
-    put_lines(report::screen_of(found));
+    print_lines(report::screen_of(found));
   }
   return found.exit_code();
 }
@@ -172,11 +173,11 @@ void add_compare_commands(Commands& commands) {
                                            "times of two devices, drivers or builds",
                                            compare);
   add_example(command, "triptych compare volume/quick --a gl:llvmpipe-egl --b vulkan:lavapipe");
-  Comparing& comparing = arguments.comparing;
-  command.add_option("PLAN", comparing.plans,
+  ComparisonRequest& request = arguments.request;
+  command.add_option("PLAN", request.plans,
                      fmt::format("Plans to compare: YAML files, or SUITE/PLAN (default: {})",
-                                 fmt::join(main_job, " ")));
-  add_choice_options(command, comparing.choice);
+                                 fmt::join(default_plans, " ")));
+  add_choice_options(command, request.choice);
   constexpr const char* side =
       "DEVICE[,NAME=VALUE]…: the device to measure on this side, and environment variables to set "
       "for this side only";
@@ -192,18 +193,18 @@ void add_compare_commands(Commands& commands) {
                    "Do not measure; print a table that compares the devices in --store, with one "
                    "row per technique");
   command
-      .add_option("--budget", comparing.budget_s,
+      .add_option("--budget", request.budget_s,
                   "Stop measuring frame times after this many seconds (default: no limit)")
       ->check(CLI::Range(1, 1000000));
-  add_limit_option(command, comparing.limit_s, "a worker that does not respond");
-  command.add_option("--store", comparing.store,
+  add_limit_option(command, request.limit_s, "a worker that does not respond");
+  command.add_option("--store", request.store,
                      "Save both runs in this SQLite file (default: do not save them)");
-  command.add_option("--seed", comparing.seed, "Seed for the random order of the measurements")
+  command.add_option("--seed", request.seed, "Seed for the random order of the measurements")
       ->capture_default_str();
-  add_inject_option(command, comparing.faults,
+  add_inject_option(command, request.faults,
                     "Inject a fault into side b to check that the comparison detects it; see "
                     "`triptych run --help`");
-  add_verbose_option(command, comparing.verbose);
+  add_verbose_option(command, request.verbose);
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
 }
 

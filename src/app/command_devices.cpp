@@ -32,34 +32,35 @@ struct Devices {
 
 void print_text(const Devices& found) {
   for (const Greeting& each : found.greeted) {
-    put("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name, each.device.vendor,
-        each.device.driver_version, each.device.api_version);
-    if (each.refused) put("  cannot be used: {}\n", text_of(*each.refused));
+    print_out("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name,
+              each.device.vendor, each.device.driver_version, each.device.api_version);
+    if (each.refused) print_out("  cannot be used: {}\n", text_of(*each.refused));
     if (!each.device.compiles_for.empty()) {
-      put("  compiles code for the GPU family {} but cannot execute it\n",
-          each.device.compiles_for);
+      print_out("  compiles code for the GPU family {} but cannot execute it\n",
+                each.device.compiles_for);
     }
     for (const record::ClockTrust& clock : each.clocks) {
-      put("  clock for {}: {}\n", clock.work, clock.verdict);
+      print_out("  clock for {}: {}\n", clock.work, clock.verdict);
     }
     for (const auto& [statistic, verdict] : each.device.statistics_calibration) {
-      put("  statistic {}: {}\n", statistic, text_of(verdict));
+      print_out("  statistic {}: {}\n", statistic, text_of(verdict));
     }
     std::string limits;
     for (const auto& [name, value] : each.device.limits)
       limits += fmt::format(" {}={}", name, value);
-    if (!limits.empty()) put("  limits:{}\n", limits);
+    if (!limits.empty()) print_out("  limits:{}\n", limits);
     for (const auto& [name, value] : each.device.environment) {
-      put("  environment: {}={}\n", name, value);
+      print_out("  environment: {}={}\n", name, value);
     }
   }
   for (const measure::Broken& each : found.broken) {
-    put("{} cannot be used: {}\n", each.what, why(each));
+    print_out("{} cannot be used: {}\n", each.what, why(each));
   }
   if (found.compilers.empty()) return;
-  put("compilers for GPUs that are not in this machine (not loaded; use --compilers to load "
+  print_out(
+      "compilers for GPUs that are not in this machine (not loaded; use --compilers to load "
       "them):\n");
-  for (const std::string& each : found.compilers) put("  {}\n", each);
+  for (const std::string& each : found.compilers) print_out("  {}\n", each);
 }
 
 void print_json(const Devices& found) {

@@ -18,7 +18,7 @@ namespace {
 
 // Escapes text for a manual page, in which backslashes, hyphens and the first character of a line
 // have a special meaning.
-std::string roff(std::string_view text) {
+std::string roff_escaped(std::string_view text) {
   std::string escaped = "\\&";
   for (const char each : text) {
     if (each == '\\') {
@@ -48,22 +48,23 @@ bool takes_a_value(const CLI::Option& option) {
   return !option.get_positional() && option.get_items_expected_max() > 0;
 }
 
-std::string entry(const CLI::Option& option) {
+std::string option_entry(const CLI::Option& option) {
   const std::string name =
       option.get_positional() ? option.get_name(true) : option.get_name(false, true);
   const std::string_view value = takes_a_value(option) ? " VALUE" : "";
-  const std::string standard = option.get_default_str();
-  return fmt::format(".TP\n.B {}{}\n{}{}\n", roff(name), value, roff(option.get_description()),
-                     standard.empty() ? "" : roff(" [" + standard + "]"));
+  const std::string default_text = option.get_default_str();
+  return fmt::format(".TP\n.B {}{}\n{}{}\n", roff_escaped(name), value,
+                     roff_escaped(option.get_description()),
+                     default_text.empty() ? "" : roff_escaped(" [" + default_text + "]"));
 }
 
-std::string section(const CLI::App& command) {
-  std::string text =
-      fmt::format(".SS {}\n{}\n", roff(command.get_name()), roff(command.get_description()));
-  for (const CLI::Option* option : shown_options(command)) text += entry(*option);
+std::string command_section(const CLI::App& command) {
+  std::string text = fmt::format(".SS {}\n{}\n", roff_escaped(command.get_name()),
+                                 roff_escaped(command.get_description()));
+  for (const CLI::Option* option : shown_options(command)) text += option_entry(*option);
   const std::string footer = command.get_footer();
   const std::size_t example = footer.size() - command.get_parent()->get_footer().size();
-  if (example > 0) text += fmt::format(".PP\n{}\n", roff(footer.substr(0, example - 2)));
+  if (example > 0) text += fmt::format(".PP\n{}\n", roff_escaped(footer.substr(0, example - 2)));
   return text;
 }
 
@@ -86,15 +87,15 @@ std::string manual(const CLI::App& program) {
       "images, amount of work and cost\n.SH SYNOPSIS\n.B triptych\nCOMMAND [OPTION]... "
       "[PLAN]...\n.SH DESCRIPTION\n{}.\n.PP\n.B triptych gate \\-\\-measure\nmeasures and judges "
       "every device of this machine.\n.SH COMMANDS\n",
-      roff(version()), roff(program.get_description()));
-  for (const CLI::App* command : shown_commands(program)) text += section(*command);
-  text += fmt::format(".SH EXIT STATUS\n{}\n", roff(program.get_footer()));
+      roff_escaped(version()), roff_escaped(program.get_description()));
+  for (const CLI::App* command : shown_commands(program)) text += command_section(*command);
+  text += fmt::format(".SH EXIT STATUS\n{}\n", roff_escaped(program.get_footer()));
   return text.append(environment);
 }
 
 // Returns the words that the shell offers as completions after a command: the command's options
 // and, if it takes plans, the names of all plans in the suites.
-std::string words_after(const CLI::App& command, const std::vector<std::string>& plans) {
+std::string completion_words(const CLI::App& command, const std::vector<std::string>& plans) {
   std::string words;
   bool takes_plans = false;
   for (const CLI::Option* option : shown_options(command)) {
@@ -115,8 +116,8 @@ std::string completion(const CLI::App& program) {
   std::string cases;
   for (const CLI::App* command : shown_commands(program)) {
     names += " " + command->get_name();
-    cases +=
-        fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(), words_after(*command, plans));
+    cases += fmt::format("    {}) words=\"{}\" ;;\n", command->get_name(),
+                         completion_words(*command, plans));
   }
   return fmt::format(
       "# Bash completion for triptych. Completes file names if no other word matches.\n_triptych() "

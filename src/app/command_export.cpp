@@ -33,9 +33,9 @@ struct ExportArguments {
 // Computes the errors of images against their reference images and their limit images (with exact
 // ray integrals). Reference images cannot be saved in a read-only store, so they are drawn again
 // for each export from such a store.
-class Errors {
+class ImageErrors {
  public:
-  explicit Errors(const std::vector<std::string>& files) : registry_(make_registry()) {
+  explicit ImageErrors(const std::vector<std::string>& files) : registry_(make_registry()) {
     for (const std::string& file : files) {
       record::Store& store = stores_.emplace_back(open_to_judge(file));
       for (const record::Run& run : store.runs()) {
@@ -55,8 +55,8 @@ class Errors {
         add("limit", limit->image, image, errors);
       }
     } catch (const core::Error& error) {
-      say("triptych: {}: cannot compute the errors of this image: {}\n", record::short_name(record),
-          error.what());
+      print_err("triptych: {}: cannot compute the errors of this image: {}\n",
+                record::short_name(record), error.what());
     }
     return errors;
   }
@@ -79,7 +79,7 @@ class Errors {
 
 // Returns the name by which the stores identify the plan. `plan` is either that name or the YAML
 // file that was given to `run`.
-std::string plan_in(const std::vector<record::Store>& stores, const std::string& plan) {
+std::string stored_plan_name(const std::vector<record::Store>& stores, const std::string& plan) {
   const bool named = std::ranges::any_of(
       stores, [&](const record::Store& each) { return each.latest_run(plan).has_value(); });
   return named ? plan : measure::plan_name(plan);
@@ -94,13 +94,13 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
   std::vector<const record::Store*> all(stores.size());
   std::ranges::transform(stores, all.begin(), [](const record::Store& each) { return &each; });
   core::require_writable(arguments.out);
-  report::ExportRequest request{.plan = plan_in(stores, arguments.plan),
+  report::ExportRequest request{.plan = stored_plan_name(stores, arguments.plan),
                                 .folder = arguments.out,
                                 .made_by = "triptych " + version(),
-                                .begins = [](const record::Run& run) {
-                                  say("exporting run {} of the plan {}\n", run.id, run.plan);
+                                .on_run = [](const record::Run& run) {
+                                  print_err("exporting run {} of the plan {}\n", run.id, run.plan);
                                 }};
-  std::optional<Errors> errors;
+  std::optional<ImageErrors> errors;
   if (arguments.errors) {
     errors.emplace(arguments.stores);
     request.errors = [&](const record::Record& record) { return errors->of(record); };
@@ -110,8 +110,9 @@ core::ExitCode write_tables(const ExportArguments& arguments) {
     print({{"folder", arguments.out}, {"rows", rows}}, 1);
     return core::ExitCode::pass;
   }
-  for (const auto& [table, count] : rows) put("{}/{}.csv: {} rows\n", arguments.out, table, count);
-  put("{}/dictionary.json: the meaning and unit of each column\n", arguments.out);
+  for (const auto& [table, count] : rows)
+    print_out("{}/{}.csv: {} rows\n", arguments.out, table, count);
+  print_out("{}/dictionary.json: the meaning and unit of each column\n", arguments.out);
   return core::ExitCode::pass;
 }
 

@@ -13,7 +13,7 @@ namespace {
 struct FeatureArguments {
   std::vector<std::string> devices;
   std::string only;
-  int limit_s = standard_limit_s;
+  int limit_s = default_limit_s;
   bool json = false;
 };
 
@@ -24,7 +24,7 @@ core::ExitCode features(const FeatureArguments& arguments) {
   if (arguments.json) {
     print(feature_json(table));
   } else {
-    put_lines(feature_text(table));
+    print_lines(feature_text(table));
   }
   return verdict_of(table);
 }

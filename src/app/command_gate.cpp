@@ -8,12 +8,12 @@
 #include "app/code_plans.hpp"
 #include "app/compare_sides.hpp"
 #include "app/measure_plans.hpp"
-#include "app/own_baselines.hpp"
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "app/verdicts.hpp"
 #include "app/version.hpp"
+#include "app/writable_baselines.hpp"
 #include "core/foreign_error.hpp"
 #include "core/glob.hpp"
 #include "core/output_files.hpp"
@@ -31,7 +31,7 @@ namespace {
 struct GateArguments {
   std::vector<std::string> plans;  // as typed by the user
   PlanChoice choice;
-  std::string store = standard_store;
+  std::string store = default_store;
   std::string baselines = default_baselines().string();
   std::vector<std::string> checks;
   std::vector<std::string> without;
@@ -49,13 +49,13 @@ struct GateArguments {
   bool bisect = false;
   bool without_data = false;
   bool verbose = false;
-  std::string ci = standard_ci;
+  std::string ci = default_ci;
 };
 
 struct AcceptArguments {
   std::vector<std::string> plans;  // as typed by the user
   PlanChoice choice;
-  std::string store = standard_store;
+  std::string store = default_store;
   std::string baselines;  // empty: ./baselines
   std::string reason;
   std::string only;
@@ -70,8 +70,8 @@ struct JudgedPlan {
 };
 
 // Returns the plans that the gate judges if the user names none.
-std::vector<std::string> gate_job() {
-  std::vector<std::string> plans = main_job;
+std::vector<std::string> default_gate_plans() {
+  std::vector<std::string> plans = default_plans;
   plans.insert(plans.end(), code_plans.begin(), code_plans.end());
   return plans;
 }
@@ -81,17 +81,18 @@ std::vector<std::string> gate_job() {
 // the requested checks. `--without cost` also leaves out the plans that count instructions, and
 // `--without code` the plans that only compile code.
 std::vector<JudgedPlan> plans_of(const GateArguments& arguments, const Registry& registry) {
-  record::Checks asked;
-  for (const std::string& name : arguments.checks) asked.insert(record::check(name));
+  record::Checks requested_checks;
+  for (const std::string& name : arguments.checks) requested_checks.insert(record::check(name));
   record::Checks without;
   for (const std::string& name : arguments.without) without.insert(record::check(name));
   std::vector<JudgedPlan> plans;
-  for (const std::string& typed : arguments.plans.empty() ? gate_job() : arguments.plans) {
-    JudgedPlan each{typed, arguments.choice.load(typed, registry.find_suite()), asked};
+  for (const std::string& typed :
+       arguments.plans.empty() ? default_gate_plans() : arguments.plans) {
+    JudgedPlan each{typed, arguments.choice.load(typed, registry.find_suite()), requested_checks};
     if (each.plan.configurations.empty() && arguments.choice.selects()) continue;
-    const auto is_asked = [&](record::Check check) { return asked.contains(check); };
-    const bool is_default = arguments.plans.empty() && !asked.empty();
-    if (is_default && std::ranges::none_of(each.plan.checks, is_asked)) continue;
+    const auto is_requested = [&](record::Check check) { return requested_checks.contains(check); };
+    const bool is_default = arguments.plans.empty() && !requested_checks.empty();
+    if (is_default && std::ranges::none_of(each.plan.checks, is_requested)) continue;
     if (each.plan.configurations.empty()) {
       throw core::NotSupported(
           fmt::format("{}: shard {} contains no configurations, so there is nothing to judge",
@@ -133,14 +134,14 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
 
 // Compares the results of each device with its results under another build or driver, which the
 // option --base selects. The baselines are not used.
-core::ExitCode judge_by_base(const GateArguments& arguments) {
+core::ExitCode compare_with_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
   const measure::Listing listing = measure::name_a_compiler(arguments.devices)
                                        ? registry.devices_and_compilers(arguments.devices)
                                        : registry.devices(arguments.devices);
-  std::vector<Comparing> comparisons =
-      against_base(arguments.base, measure::choose_devices(listing, arguments.devices));
-  for (Comparing& each : comparisons) {
+  std::vector<ComparisonRequest> comparisons =
+      comparisons_with_base(arguments.base, measure::choose_devices(listing, arguments.devices));
+  for (ComparisonRequest& each : comparisons) {
     each.plans = arguments.plans;
     if (each.plans.empty() && measure::compile_only(each.b.device)) each.plans = code_plans;
     each.choice = arguments.choice;
@@ -148,7 +149,7 @@ core::ExitCode judge_by_base(const GateArguments& arguments) {
     each.times = arguments.times;
     each.verbose = arguments.verbose;
   }
-  return compare_and_tell(comparisons, arguments.json);
+  return compare_and_print(comparisons, arguments.json);
 }
 
 // Returns the devices of this machine if the gate measures, otherwise the devices of the stored
@@ -189,9 +190,9 @@ void limit_to_stored_code(const GateArguments& arguments, const Registry& regist
   }
 }
 
-core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Stopwatch& since) {
+core::ExitCode judge_and_print(const GateArguments& arguments, const measure::Stopwatch& since) {
   const CiSystem ci = ci_system(arguments.ci);
-  if (!arguments.base.empty()) return judge_by_base(arguments);
+  if (!arguments.base.empty()) return compare_with_base(arguments);
   const Registry registry = make_registry();
   std::vector<JudgedPlan> plans = plans_of(arguments, registry);
   limit_to_stored_code(arguments, registry, plans);
@@ -208,27 +209,27 @@ core::ExitCode judge_and_tell(const GateArguments& arguments, const measure::Sto
                        .statistics = true,
                        .verbose = arguments.verbose,
                        .ci = ci,
-                       .told_to = stderr});
+                       .summary_output = stderr});
   }
   record::Store store = open_to_judge(arguments.store);
   measure::Truths truths(registry.find_suite(), store);
   std::vector<judge::GateResult> results;
   for (const JudgedPlan& each : plans) {
     const judge::GateRequest request = request_for(arguments, each, registry, truths);
-    results.push_back(judge_named(store, latest_run_of(store, each.typed, arguments.store),
-                                  arguments.baselines, request));
+    results.push_back(judge_stored_run(store, latest_run_of(store, each.typed, arguments.store),
+                                       arguments.baselines, request));
     if (arguments.without_data) excuse_absent_data(store, results.back());
   }
-  return tell_verdict(store, truths, results, since.seconds(),
-                      {.folder = arguments.out,
-                       .junit = arguments.junit,
-                       .markdown = arguments.markdown,
-                       .json = arguments.json ? "-" : "",
-                       .baselines = arguments.baselines,
-                       .ci = ci});
+  return report_verdict(store, truths, results, since.seconds(),
+                        {.folder = arguments.out,
+                         .junit = arguments.junit,
+                         .markdown = arguments.markdown,
+                         .json = arguments.json ? "-" : "",
+                         .baselines = arguments.baselines,
+                         .ci = ci});
 }
 
-void refuse_bad_files(const GateArguments& arguments) {
+void reject_invalid_options(const GateArguments& arguments) {
   if (!arguments.faults.empty() && !arguments.measure && arguments.base.empty()) {
     throw core::InputError(
         "--inject needs --measure or --base, because faults are injected during measurement");
@@ -244,21 +245,21 @@ void refuse_bad_files(const GateArguments& arguments) {
 core::ExitCode gate(const GateArguments& arguments) {
   const measure::Stopwatch since;
   const auto judged = [&] {
-    refuse_bad_files(arguments);
-    return judge_and_tell(arguments, since);
+    reject_invalid_options(arguments);
+    return judge_and_print(arguments, since);
   };
   if (!arguments.bisect) return judged();
   try {
     const core::ExitCode code = core::naming({}, judged);
-    return code == core::ExitCode::cannot_judge ? bisect_skips : code;
+    return code == core::ExitCode::cannot_judge ? bisect_skip_code : code;
   } catch (const core::Error& error) {
-    say("triptych: {}\n", error.what());
-    return bisect_skips;
+    print_err("triptych: {}\n", error.what());
+    return bisect_skip_code;
   }
 }
 
 void accept_one(const AcceptArguments& arguments, const std::string& typed, record::Store& store,
-                measure::Truths& truths, const OwnBaselines& baselines) {
+                measure::Truths& truths, const WritableBaselines& baselines) {
   const std::string plan = measure::plan_name(typed);
   const judge::GateRequest judged = request_of(truths, plan);
   const judge::AcceptRequest request{
@@ -275,11 +276,12 @@ void accept_one(const AcceptArguments& arguments, const std::string& typed, reco
       .stress = judge::StressTruths{judged.truth, judged.expectations}};
   const std::vector<std::string> changes = judge::accept(
       store, latest_run_of(store, typed, arguments.store), baselines.folder(), request);
-  for (const std::string& change : changes) put_lines(change + "\n");
+  for (const std::string& change : changes) print_lines(change + "\n");
   if (changes.empty()) {
-    put("{}: the baselines in {} are unchanged\n", plan, baselines.name().string());
+    print_out("{}: the baselines in {} are unchanged\n", plan, baselines.name().string());
   } else {
-    put("{}: review these changes in {} before you commit\n", plan, baselines.name().string());
+    print_out("{}: review these changes in {} before you commit\n", plan,
+              baselines.name().string());
   }
 }
 
@@ -300,13 +302,14 @@ core::ExitCode accept(const AcceptArguments& arguments) {
   const Registry registry = make_registry();
   record::Store store = open_to_judge(arguments.store);
   measure::Truths truths(registry.find_suite(), store);
-  OwnBaselines baselines(arguments.baselines);
+  WritableBaselines baselines(arguments.baselines);
   for (const std::string& typed : plans_to_accept(arguments, store)) {
     accept_one(arguments, typed, store, truths, baselines);
   }
-  baselines.keep();
+  baselines.commit();
   if (!baselines.copied_from().empty()) {
-    put("{} was created as a copy of {}, and then the accepted baselines were written to it\n",
+    print_out(
+        "{} was created as a copy of {}, and then the accepted baselines were written to it\n",
         baselines.name().string(), baselines.copied_from().string());
   }
   return core::ExitCode::pass;
@@ -346,7 +349,7 @@ void add_gate_commands(Commands& commands) {
       "PLAN", arguments.plans,
       fmt::format(
           "Plans to judge, named as in the `run` command: SUITE/PLAN or a YAML file (default: {})",
-          fmt::join(gate_job(), " ")));
+          fmt::join(default_gate_plans(), " ")));
   add_choice_options(command, arguments.choice);
   command.add_flag("--measure", arguments.measure, "Measure the plans before judging them");
   command

@@ -40,7 +40,7 @@ core::ExitCode history(const HistoryArguments& arguments) {
     given.push_back(&stores.back());
   }
   comparison::HistoryBuilder builder(arguments.devices);
-  for (record::Store* store : comparison::in_order(given)) {
+  for (record::Store* store : comparison::sorted_by_time(given)) {
     measure::Truths truths(registry.find_suite(), *store);
     builder.add(*store, truths);
   }
@@ -54,8 +54,8 @@ core::ExitCode history(const HistoryArguments& arguments) {
   if (arguments.json) {
     print(json);
   } else {
-    put_lines(report::screen_of(builder.devices()));
-    if (!arguments.out.empty()) put("{}\n", arguments.out);
+    print_lines(report::screen_of(builder.devices()));
+    if (!arguments.out.empty()) print_out("{}\n", arguments.out);
   }
   return core::ExitCode::pass;
 }

@@ -32,9 +32,9 @@ std::string levels_text(const measure::Factor& factor) {
 
 void print_factor(const measure::Factor& factor) {
   const std::string levels = levels_text(factor);
-  put("  {}: {}{}{}{}\n      {}\n", factor.name, levels, levels.empty() ? "" : "; ",
-      factor.standard.empty() ? "required" : "default " + factor.standard,
-      factor.of_scene ? "" : "; does not change the image", factor.summary);
+  print_out("  {}: {}{}{}{}\n      {}\n", factor.name, levels, levels.empty() ? "" : "; ",
+            factor.standard.empty() ? "required" : "default " + factor.standard,
+            factor.of_scene ? "" : "; does not change the image", factor.summary);
 }
 
 core::Json json_of(const measure::Factor& factor) {
@@ -68,15 +68,15 @@ std::vector<CountedPlan> plans_of(const measure::Suite& suite, const Registry& r
 }
 
 void print_text(const measure::Suite& suite, const std::vector<CountedPlan>& plans) {
-  put("factors of {}\n", suite.name());
+  print_out("factors of {}\n", suite.name());
   for (const measure::Factor& factor : suite.factors()) print_factor(factor);
-  if (!suite.generators().empty()) put("data generators\n");
+  if (!suite.generators().empty()) print_out("data generators\n");
   for (const auto& [name, summary] : suite.generators()) {
-    put("  generate:{}\n      {}\n", name, summary);
+    print_out("  generate:{}\n      {}\n", name, summary);
   }
-  put("plans\n");
+  print_out("plans\n");
   for (const auto& [plan, count] : plans) {
-    put("  {}: {} configurations\n      {}\n", plan.name, count, plan.summary);
+    print_out("  {}: {} configurations\n      {}\n", plan.name, count, plan.summary);
   }
 }
 
@@ -120,7 +120,7 @@ core::ExitCode print_json(const measure::Plan& plan) {
 void print_name(const measure::Suite& suite, const std::string& plan,
                 const measure::Configuration& configuration) {
   const std::string key = measure::configuration_key(suite, configuration);
-  put_lines(record::short_name(suite.name(), plan, key) + "  " + key + "\n");
+  print_lines(record::short_name(suite.name(), plan, key) + "  " + key + "\n");
 }
 
 core::ExitCode list_plan(const ListArguments& arguments, const Registry& registry) {
@@ -143,7 +143,7 @@ core::ExitCode list_plan(const ListArguments& arguments, const Registry& registr
                              ++count;
                            }));
   }
-  say("{}: {} configurations\n", plan_name, count);
+  print_err("{}: {} configurations\n", plan_name, count);
   return core::ExitCode::pass;
 }
 

@@ -24,58 +24,60 @@ struct MergeArguments {
   std::vector<std::string> plans;  // plans that each store must contain
 };
 
-void tell_left_out(const record::RecordCounts& counts) {
+void print_left_out(const record::RecordCounts& counts) {
   if (counts.repeated > 0) {
-    put("  {} records occur in several stores; one copy of each record was kept\n",
-        counts.repeated);
+    print_out("  {} records occur in several stores; one copy of each record was kept\n",
+              counts.repeated);
   }
   if (counts.injected > 0) {
-    put("  {} records with an injected fault were replaced by records without one\n",
-        counts.injected);
+    print_out("  {} records with an injected fault were replaced by records without one\n",
+              counts.injected);
   }
   if (counts.measured_anew > 0) {
-    put("  {} failed or skipped records were replaced by measured records from another store\n",
+    print_out(
+        "  {} failed or skipped records were replaced by measured records from another store\n",
         counts.measured_anew);
   }
   if (counts.not_chosen > 0) {
-    put("  {} records were dropped, because another store has a different record for the same "
+    print_out(
+        "  {} records were dropped, because another store has a different record for the same "
         "configuration and device; the record with the lower seal (hash) was kept\n",
         counts.not_chosen);
   }
 }
 
-void tell(const record::MergeResult::Plan& plan, const std::string& out) {
-  put("{}: run {} in {}: {} configurations\n", plan.run.plan, plan.run.id, out,
-      plan.run.configurations);
+void print_summary(const record::MergeResult::Plan& plan, const std::string& out) {
+  print_out("{}: run {} in {}: {} configurations\n", plan.run.plan, plan.run.id, out,
+            plan.run.configurations);
   for (const auto& [device, records] : plan.counts.records) {
-    put("  {}: {} records{}\n", device, records,
-        records < plan.run.configurations
-            ? fmt::format(", {} missing", plan.run.configurations - records)
-            : "");
+    print_out("  {}: {} records{}\n", device, records,
+              records < plan.run.configurations
+                  ? fmt::format(", {} missing", plan.run.configurations - records)
+                  : "");
   }
-  tell_left_out(plan.counts);
+  print_left_out(plan.counts);
 }
 
 std::vector<std::string> gaps_in(const record::Store& store,
                                  const std::vector<std::string>& plans) {
-  std::vector<std::string> told;
+  std::vector<std::string> gaps;
   for (const std::string& each : plans) {
     const std::string name = measure::plan_name(each);
-    if (!store.latest_run(name)) told.push_back(name + ": no run of this plan");
+    if (!store.latest_run(name)) gaps.push_back(name + ": no run of this plan");
   }
   for (const record::Gap& gap : record::gaps_of(store)) {
     if (gap.configurations == 0) {
-      told.push_back(gap.plan + ": the shard contains no configurations");
+      gaps.push_back(gap.plan + ": the shard contains no configurations");
       continue;
     }
-    told.push_back(fmt::format(
+    gaps.push_back(fmt::format(
         "{}{}: records for {} of {} configurations{}{}", gap.plan,
         gap.device.empty() ? "" : " on " + gap.device, gap.records, gap.configurations,
         gap.missing.empty() ? "" : "; missing: ", gap.missing.empty() ? "" : gap.missing.front()));
-    if (gap.missing.size() > 1) told.back() += ", …";
+    if (gap.missing.size() > 1) gaps.back() += ", …";
   }
-  if (told.empty() && store.runs().empty()) told.emplace_back("contains no runs");
-  return told;
+  if (gaps.empty() && store.runs().empty()) gaps.emplace_back("contains no runs");
+  return gaps;
 }
 
 // Returns one line for each gap in the measurements of any of the stores.
@@ -90,18 +92,18 @@ std::string all_gaps(const MergeArguments& arguments) {
   return lines;
 }
 
-bool holds_a_run(const std::string& file) {
+bool has_run(const std::string& file) {
   return !record::Store(file, record::Store::Mode::read).runs().empty();
 }
 
 core::ExitCode merge(const MergeArguments& arguments) {
   if (arguments.check) {
     const std::string gaps = all_gaps(arguments);
-    put_lines(gaps);
+    print_lines(gaps);
     return gaps.empty() ? core::ExitCode::pass : core::ExitCode::cannot_judge;
   }
   if (arguments.out.empty()) throw core::InputError("--out is required; name the store to write");
-  if (std::ranges::none_of(arguments.stores, holds_a_run)) {
+  if (std::ranges::none_of(arguments.stores, has_run)) {
     throw core::NotSupported(
         fmt::format("there is nothing to merge, because no store contains a run: {}",
                     fmt::join(arguments.stores, ", ")));
@@ -113,24 +115,26 @@ core::ExitCode merge(const MergeArguments& arguments) {
   const auto count = [last =
                           std::chrono::steady_clock::time_point()](std::uint64_t records) mutable {
     const auto now = std::chrono::steady_clock::now();
-    if (!watched() || now - last < std::chrono::milliseconds(200)) return;
+    if (!stderr_is_terminal() || now - last < std::chrono::milliseconds(200)) return;
     last = now;
-    show("merged {} records", records);
+    show_progress("merged {} records", records);
   };
   const record::MergeResult result = record::merge_stores(
       {arguments.stores.begin(), arguments.stores.end()}, arguments.out, count);
   clear_line();
-  for (const record::MergeResult::Plan& each : result.plans) tell(each, arguments.out);
+  for (const record::MergeResult::Plan& each : result.plans) print_summary(each, arguments.out);
   if (result.older_runs > 0) {
-    put("{} older runs were left out, because each store contributes only its latest run of a "
+    print_out(
+        "{} older runs were left out, because each store contributes only its latest run of a "
         "plan\n",
         result.older_runs);
   }
   // A gap in one shard (part of a plan) is not necessarily a gap in the merged run, because another
   // shard may contain the configuration.
   if (!gaps.empty()) {
-    put_lines(gaps);
-    put("The records listed above are also missing from {} unless another store contains them\n",
+    print_lines(gaps);
+    print_out(
+        "The records listed above are also missing from {} unless another store contains them\n",
         arguments.out);
   }
   return core::ExitCode::pass;

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_frames = 1000000;
+constexpr int max_frames = 1000000;
 
 struct ReduceArguments {
   FrameArguments frame = {.out = "reduced"};
@@ -101,10 +101,10 @@ std::vector<std::string> write_frame(const OneFrame& frame, const reduction::Tri
 // or, if there is none, the pixel with the largest ratio of error to bound. If the driver crashes
 // before it receives the input, nothing is written. If the frame hangs, its input has already been
 // written when the process is killed. `limit` is the frame's time limit.
-std::vector<std::string> write_dump_of(const OneFrame& frame, const ReduceArguments& arguments,
-                                       const reduction::Trial& trial, measure::Truths& truths,
-                                       std::optional<std::chrono::seconds> limit,
-                                       const fs::path& out) {
+std::vector<std::string> write_dump(const OneFrame& frame, const ReduceArguments& arguments,
+                                    const reduction::Trial& trial, measure::Truths& truths,
+                                    std::optional<std::chrono::seconds> limit,
+                                    const fs::path& out) {
   const record::Record& record = trial.last();
   const fs::path folder = out / "dump";
   std::vector<std::string> command{measure::own_program(),
@@ -171,22 +171,24 @@ struct Search {
 
 // Completes the report about the frame that was drawn last, writes it, and prints its summary.
 // `found` states in words what the search found.
-core::ExitCode publish(const Search& search, report::BugReport report, const std::string& found) {
+core::ExitCode finish_report(const Search& search, report::BugReport report,
+                             const std::string& found) {
   report.device = search.trial.device();
   report.system = search.store.runs().front().system;
   for (std::string& file : write_frame(search.frame, search.trial, search.truths, search.out)) {
     report.files.push_back(std::move(file));
   }
   core::write_text(search.out / "README.md", report::markdown(report));
-  put_lines(fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames, found,
-                        report.complete ? "" : "; the search stopped at the limit set by --frames",
-                        (search.out / "README.md").string(), report.command));
+  print_lines(
+      fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames, found,
+                  report.complete ? "" : "; the search stopped at the limit set by --frames",
+                  (search.out / "README.md").string(), report.command));
   return core::ExitCode::regression;
 }
 
 core::ExitCode reduce_frame(const Search& search, const reduction::Failure& first) {
   const auto on_step = [](const reduction::Step& step) {
-    say("{:>4} frames drawn: {} {} → {}\n", step.frame, step.factor, step.from, step.to);
+    print_err("{:>4} frames drawn: {} {} → {}\n", step.frame, step.factor, step.from, step.to);
   };
   const measure::Configuration& start = search.frame.plan.configurations.front();
   const reduction::Reduction reduction =
@@ -194,18 +196,18 @@ core::ExitCode reduce_frame(const Search& search, const reduction::Failure& firs
                         std::ref(search.trial), on_step);
   static_cast<void>(search.trial(reduction.smallest));
   report::BugReport report = report_of(search.frame, reduction);
-  report.files = write_dump_of(search.frame, search.arguments, search.trial, search.truths,
-                               reduction.failure.reason.limit(), search.out);
+  report.files = write_dump(search.frame, search.arguments, search.trial, search.truths,
+                            reduction.failure.reason.limit(), search.out);
   report.command = command_for(search.frame, search.arguments, reduction.failure,
                                search.trial.last(), search.trial.device());
-  return publish(search, report, report::text_of(report.changes));
+  return finish_report(search, report, report::text_of(report.changes));
 }
 
 // The configurations that a plan draws before a given frame.
-class Beginning {
+class PrecedingConfigurations {
  public:
   // Throws core::InputError if the plan does not contain the frame.
-  Beginning(const Registry& registry, const OneFrame& frame, const std::string& plan)
+  PrecedingConfigurations(const Registry& registry, const OneFrame& frame, const std::string& plan)
       : suite_(frame.suite) {
     measure::Plan whole = PlanChoice{}.load(plan, registry.find_suite());
     plan_ = whole.name;
@@ -261,67 +263,69 @@ std::string command_for_sequence(const Search& search, const reduction::Failure&
 }
 
 // Writes and prints the sequence `before`, after which the frame has just failed.
-core::ExitCode publish_sequence(const Search& search, const Beginning& beginning,
-                                const std::vector<measure::Configuration>& before,
-                                const reduction::Failure& failure, report::BugReport report) {
+core::ExitCode finish_sequence_report(const Search& search,
+                                      const PrecedingConfigurations& preceding,
+                                      const std::vector<measure::Configuration>& before,
+                                      const reduction::Failure& failure, report::BugReport report) {
   const measure::Configuration& frame = search.frame.plan.configurations.front();
   const fs::path list = search.out / "sequence.txt";
   std::string keys;
   std::string found = fmt::format("the frame fails after {} of {} configurations:", before.size(),
-                                  beginning.size());
+                                  preceding.size());
   for (const measure::Configuration& each : before) {
-    report.before.push_back(beginning.name(each));
+    report.before.push_back(preceding.name(each));
     found += "\n  " + report.before.back();
-    keys += beginning.key(each) + "\n";
+    keys += preceding.key(each) + "\n";
   }
-  core::write_text(list, keys + beginning.key(frame) + "\n");
+  core::write_text(list, keys + preceding.key(frame) + "\n");
   report.files = {"sequence.txt"};
   report.message = report::words::text_of(failure);
   report.plan = search.arguments.after;
   report.factors = frame;
   report.command = command_for_sequence(search, failure, list);
-  return publish(search, std::move(report), found);
+  return finish_report(search, std::move(report), found);
 }
 
 // Finds the shortest sequence of configurations after which the frame fails.
-core::ExitCode reduce_sequence(const Search& search, const Beginning& beginning) {
+core::ExitCode reduce_sequence(const Search& search, const PrecedingConfigurations& preceding) {
   const measure::Configuration& frame = search.frame.plan.configurations.front();
   std::optional<reduction::Failure> failure;
   report::BugReport report;
   const auto fails_after = [&](const reduction::Positions& positions) {
     report.frames += static_cast<int>(positions.size()) + 1;
-    const auto now = search.trial.draw_after(beginning.at(positions), frame);
+    const auto now = search.trial.draw_after(preceding.at(positions), frame);
     if (!now || (failure && !reduction::is_same_kind(*now, *failure))) return false;
     failure = now;
     return true;
   };
   const auto on_shorter = [&](std::size_t length) {
-    say("{:>4} frames drawn: the frame fails after {} of {} configurations\n", report.frames,
-        length, beginning.size());
+    print_err("{:>4} frames drawn: the frame fails after {} of {} configurations\n", report.frames,
+              length, preceding.size());
   };
   const auto sequence = reduction::shortest_sequence(
-      beginning.size(), static_cast<std::size_t>(search.arguments.frames.value_or(most_frames)),
+      preceding.size(), static_cast<std::size_t>(search.arguments.frames.value_or(max_frames)),
       fails_after, on_shorter);
   if (!sequence) {
-    put("the frame does not fail on {}, neither alone nor after the {} configurations that {} "
+    print_out(
+        "the frame does not fail on {}, neither alone nor after the {} configurations that {} "
         "draws before it\n",
-        search.frame.device, beginning.size(), search.arguments.after);
+        search.frame.device, preceding.size(), search.arguments.after);
     return core::ExitCode::pass;
   }
   report.complete = sequence->complete;
-  const std::vector<measure::Configuration> before = beginning.at(sequence->before);
+  const std::vector<measure::Configuration> before = preceding.at(sequence->before);
   const auto again = search.trial.draw_after(before, frame);
   if (!again || !reduction::is_same_kind(*again, *failure)) {
     throw core::NotSupported(report::words::fails_differently(*failure, again));
   }
-  return publish_sequence(search, beginning, before, *again, std::move(report));
+  return finish_sequence_report(search, preceding, before, *again, std::move(report));
 }
 
 core::ExitCode reduce(const ReduceArguments& arguments) {
   const Registry registry = make_registry();
   const OneFrame frame = choose_frame(registry, arguments.frame);
-  std::optional<Beginning> beginning;
-  if (!arguments.after.empty()) beginning.emplace(registry, frame, arguments.after);
+  std::optional<PrecedingConfigurations> preceding;
+  if (!arguments.after.empty()) preceding.emplace(registry, frame, arguments.after);
   const fs::path out(arguments.frame.out);
   // A README.md without frame.json next to it was not written by `reduce`, so it is kept.
   if (fs::exists(out / "frame.json")) fs::remove(out / "README.md");
@@ -343,8 +347,9 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   const Search search{arguments, frame, store, truths, trial, out};
   const reduction::FirstFrames first = trial.draw_first(start);
   if (!first.first_failure) {
-    if (beginning) return reduce_sequence(search, *beginning);
-    put("the frame does not fail on {}, so there is nothing to reduce; if it failed in a plan, add "
+    if (preceding) return reduce_sequence(search, *preceding);
+    print_out(
+        "the frame does not fail on {}, so there is nothing to reduce; if it failed in a plan, add "
         "--after PLAN\n",
         frame.device);
     return core::ExitCode::pass;
@@ -353,7 +358,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
     throw core::NotSupported(
         report::words::fails_differently(*first.first_failure, first.second_failure));
   }
-  say("{}: {}\n", frame.device, report::words::text_of(*first.second_failure));
+  print_err("{}: {}\n", frame.device, report::words::text_of(*first.second_failure));
   return reduce_frame(search, *first.second_failure);
 }
 
@@ -381,7 +386,7 @@ void add_reduce_command(Commands& commands) {
   command
       .add_option("--frames", arguments.frames,
                   "Draw at most this many frames (default: 500; with --after, 1000000)")
-      ->check(CLI::Range(1, most_frames));
+      ->check(CLI::Range(1, max_frames));
   command.add_flag("--truth", arguments.truth,
                    "Has no effect, because `reduce` always compares with the reference image; this "
                    "option exists so that a `render` command can be reused");

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 struct RenderArguments {
   FrameArguments frame;
   std::optional<std::string> error;  // as typed by the user
-  int limit_s = standard_limit_s;
+  int limit_s = default_limit_s;
   bool truth = false;
   bool describe = false;
   bool in_process = false;
@@ -41,16 +41,17 @@ struct RenderArguments {
 
 // Writes the reference image and the difference image next to the device's image, and prints
 // whether the device's image is correct.
-core::ExitCode hold_against_truth(const core::Image& image, const judge::TruthPair& pair,
-                                  const fs::path& out) {
-  const report::HeldAgainstTruth held = report::write_difference(out, image, pair);
-  if (held.has_difference) {
-    put("{}: black means no error, white an error equal to the pixel's bound, cyan a larger "
+core::ExitCode compare_with_reference(const core::Image& image, const judge::TruthPair& pair,
+                                      const fs::path& out) {
+  const report::ReferenceComparison comparison = report::write_difference(out, image, pair);
+  if (comparison.has_difference) {
+    print_out(
+        "{}: black means no error, white an error equal to the pixel's bound, cyan a larger "
         "error\n",
         (out / "difference.png").string());
   }
-  put_lines(report::words::text_of(held.what) + "\n");
-  return held.right() ? core::ExitCode::pass : core::ExitCode::regression;
+  print_lines(report::words::text_of(comparison.what) + "\n");
+  return comparison.right() ? core::ExitCode::pass : core::ExitCode::regression;
 }
 
 struct Drawing {
@@ -86,7 +87,7 @@ Drawn draw_one(const Drawing& drawing, const measure::Plan& plan) {
 
 // Finds the fastest technique by short trials, and draws with it. If the device cannot draw with
 // any technique, returns the result for the first technique.
-Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
+Drawn draw_fastest(const Drawing& drawing, const measure::Plan& plan) {
   if (drawing.arguments.error) {
     throw core::InputError(
         "--error and technique=auto cannot be combined, because each selects the fastest frame by "
@@ -100,7 +101,7 @@ Drawn draw_the_fastest(const Drawing& drawing, const measure::Plan& plan) {
     return {records.at(0).run, records.at(0)};
   }
   const record::Record& fastest = *answers.front().contestants.front().record;
-  put_lines(describe(answers.front(), plan.automatic) + "\n");
+  print_lines(describe(answers.front(), plan.automatic) + "\n");
   return {fastest.run, fastest};
 }
 
@@ -119,7 +120,7 @@ Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
   if (answers.front().record == nullptr) {
     throw core::NotSupported(describe(answers.front(), wanted));
   }
-  put_lines(describe(answers.front(), wanted) + "\n");
+  print_lines(describe(answers.front(), wanted) + "\n");
   return {run, *answers.front().record};
 }
 
@@ -127,7 +128,7 @@ Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
 core::ExitCode describe_data(const Registry& registry, const FrameArguments& arguments) {
   const auto [suite, plan] = choose_data(registry, arguments);
   for (const std::string& line : suite.describe_data(plan.configurations.front())) {
-    put_lines(line + "\n");
+    print_lines(line + "\n");
   }
   return core::ExitCode::pass;
 }
@@ -147,17 +148,17 @@ void prepare_process(const RenderArguments& arguments) {
   ::setenv("TRIPTYCH_DUMP", fs::absolute(arguments.dump).c_str(), 1);
 }
 
-core::ExitCode keep(const RenderArguments& arguments, measure::SuiteWithTruth& suite,
-                    const record::Record& record, const record::Device& device,
-                    const core::Image& image,
-                    const std::function<judge::TruthPair(const record::Record&)>& truth) {
+core::ExitCode write_results(const RenderArguments& arguments, measure::SuiteWithTruth& suite,
+                             const record::Record& record, const record::Device& device,
+                             const core::Image& image,
+                             const std::function<judge::TruthPair(const record::Record&)>& truth) {
   const fs::path out(arguments.frame.out);
   report::write_image_files(out, "image", image);
   const core::Json frame = report::frame_json(suite.describe(record.factors), record, device);
   core::write_text(out / "frame.json", core::json_text(frame, 2) + "\n");
-  put("{}\n", (out / "image.exr").string());
+  print_out("{}\n", (out / "image.exr").string());
   if (!arguments.truth) return core::ExitCode::pass;
-  return hold_against_truth(image, truth(record), out);
+  return compare_with_reference(image, truth(record), out);
 }
 
 core::ExitCode render_in_process(const RenderArguments& arguments) {
@@ -186,16 +187,17 @@ core::ExitCode render_in_process(const RenderArguments& arguments) {
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "render.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);
-  core::ExitCode kept = keep(arguments, suite, drawn.record, drawn.device, drawn.image,
-                             [&](const record::Record& record) { return truths.of(record); });
+  core::ExitCode code =
+      write_results(arguments, suite, drawn.record, drawn.device, drawn.image,
+                    [&](const record::Record& record) { return truths.of(record); });
   if (drawn.not_drawn > 0) {
-    put("{} of {} pixels were not drawn; they still have the values from before the frame\n",
-        drawn.not_drawn, drawn.image.pixel_count());
-    kept = core::ExitCode::regression;
+    print_out("{} of {} pixels were not drawn; they still have the values from before the frame\n",
+              drawn.not_drawn, drawn.image.pixel_count());
+    code = core::ExitCode::regression;
   }
-  if (!drawn.traced) return kept;
-  const core::ExitCode shown = show_pixel(suite, drawn, truths.of(drawn.record), out);
-  return kept == core::ExitCode::pass ? shown : kept;
+  if (!drawn.traced) return code;
+  const core::ExitCode shown = print_pixel(suite, drawn, truths.of(drawn.record), out);
+  return code == core::ExitCode::pass ? shown : code;
 }
 
 core::ExitCode render(const RenderArguments& arguments) {
@@ -213,14 +215,14 @@ core::ExitCode render(const RenderArguments& arguments) {
   record::Store store(folder.path() / "render.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);
   const Drawing drawing{arguments, {device}, suite, store};
-  const auto [run, record] = !plan.automatic.empty() ? draw_the_fastest(drawing, plan)
+  const auto [run, record] = !plan.automatic.empty() ? draw_fastest(drawing, plan)
                              : arguments.error       ? draw_within_error(drawing, plan, truths)
                                                      : draw_one(drawing, plan);
   record::require_measured(record);
   if (record.image.empty()) throw core::InputError(record.technique + " does not produce an image");
   const core::Image image = store.decoded_image(record.image);
-  return keep(arguments, suite, record, store.devices(run).at(0).device, image,
-              [&](const record::Record& of) { return truths.of(of); });
+  return write_results(arguments, suite, record, store.devices(run).at(0).device, image,
+                       [&](const record::Record& of) { return truths.of(of); });
 }
 
 }  // namespace
@@ -228,7 +230,7 @@ core::ExitCode render(const RenderArguments& arguments) {
 void add_render_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "render", "Draw one configuration, and write image.exr, image.png and frame.json", render,
-      {.frame = {.chooses = true, .describes = true}});
+      {.frame = {.allow_auto = true, .device_optional = true}});
   arguments.frame.add_to(command);
   command.add_option("--out", arguments.frame.out, "Write the files to this folder");
   command.add_option(

@@ -12,7 +12,7 @@ namespace triptych::app {
 namespace {
 
 struct ReportArguments {
-  std::string store = standard_store;
+  std::string store = default_store;
   std::string baselines = default_baselines().string();
   std::string out = "report.html";
   std::string benchmark_json;
@@ -45,8 +45,8 @@ core::ExitCode write_report(const ReportArguments& arguments) {
   if (!arguments.benchmark_json.empty()) {
     core::write_text(arguments.benchmark_json, report::benchmark_json(store, latest_runs(store)));
   }
-  put("{}\n", arguments.out);
-  if (!arguments.benchmark_json.empty()) put("{}\n", arguments.benchmark_json);
+  print_out("{}\n", arguments.out);
+  if (!arguments.benchmark_json.empty()) print_out("{}\n", arguments.benchmark_json);
   return core::ExitCode::pass;
 }
 

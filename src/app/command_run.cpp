@@ -19,24 +19,24 @@ using measure::RunResult;
 
 // Measures the plans. Returns cannot_judge if a plan has no measured configuration, or if the
 // requested error was not met.
-core::ExitCode run(const Measuring& measuring) {
-  const auto [scored, results, error_kept] = measure_resumably(measuring);
+core::ExitCode run(const MeasureRequest& request) {
+  const auto [scored, results, error_met] = measure_resumably(request);
   const bool measured =
       std::ranges::all_of(results, [](const RunResult& result) { return result.measured > 0; });
-  return measured && error_kept ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+  return measured && error_met ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
 // Measures plans as a CTest fixture. The test is skipped if every configuration is skipped. It
 // fails if a configuration fails, unless the plan has the check `stress`: the failures then lower
 // the scores, which a separate test reports.
-core::ExitCode run_as_test(const Measuring& measuring) {
-  const auto [scored, results, error_kept] = measure_and_tell(measuring);
+core::ExitCode run_as_test(const MeasureRequest& request) {
+  const auto [scored, results, error_met] = measure_and_print(request);
   const bool failed =
       std::ranges::any_of(results, [](const RunResult& result) { return result.failed > 0; });
   if (failed && !scored) return core::ExitCode::regression;
-  const bool told = std::ranges::all_of(
+  const bool not_skipped = std::ranges::all_of(
       results, [](const RunResult& result) { return result.measured + result.failed > 0; });
-  return told ? core::ExitCode::pass : core::ExitCode::skip;
+  return not_skipped ? core::ExitCode::pass : core::ExitCode::skip;
 }
 
 // Limits the memory of this process from now on. Has no effect under Valgrind.
@@ -80,37 +80,37 @@ void add_worker_commands(Commands& commands) {
   listing.group("");
 }
 
-void add_run_options(CLI::App& command, Measuring& measuring) {
-  add_plan_option(command, measuring.plans);
-  add_choice_options(command, measuring.choice);
-  command.add_option("--device", measuring.devices,
+void add_run_options(CLI::App& command, MeasureRequest& request) {
+  add_plan_option(command, request.plans);
+  add_choice_options(command, request.choice);
+  command.add_option("--device", request.devices,
                      "Measure only devices that match this glob (repeatable; default: all)");
-  command.add_option("--store", measuring.store, "Write the results to this SQLite file")
+  command.add_option("--store", request.store, "Write the results to this SQLite file")
       ->capture_default_str();
-  add_limit_option(command, measuring.limit_s, "a configuration");
-  constexpr std::uint64_t least_memory = std::uint64_t{64} << 20;
+  add_limit_option(command, request.limit_s, "a configuration");
+  constexpr std::uint64_t min_memory = std::uint64_t{64} << 20;
   command
-      .add_option("--memory", measuring.memory,
+      .add_option("--memory", request.memory,
                   "Limit the memory that a worker process may allocate, for example to 4G; a "
                   "configuration that needs more fails (default: no limit; has no effect under "
                   "Valgrind)")
       ->transform(CLI::AsSizeValue(false))
-      ->check(CLI::Range(least_memory, std::numeric_limits<std::uint64_t>::max()));
-  add_verbose_option(command, measuring.verbose);
-  command.add_flag("--untimed", measuring.untimed,
+      ->check(CLI::Range(min_memory, std::numeric_limits<std::uint64_t>::max()));
+  add_verbose_option(command, request.verbose);
+  command.add_flag("--untimed", request.untimed,
                    "For each configuration, draw only one frame for the image and one frame for "
                    "the counters; omit frame times and driver statistics");
   command
       .add_flag(
-          "--timed", measuring.timed,
+          "--timed", request.timed,
           "Measure frame times even for plans without the check `timing`, such as SUITE/accuracy")
       ->excludes("--untimed");
   command.add_flag(
-      "--measure-every", measuring.measure_every,
+      "--measure-every", request.measure_every,
       "Also measure configurations that do exactly the same work as another configuration of the "
       "same scene");
   add_inject_option(
-      command, measuring.faults,
+      command, request.faults,
       "Inject a fault to check that the gate detects it: " + measure::fault_names() +
           "; FAULT@factor=level,… limits the fault to matching configurations, and FAULT@GLOB to "
           "matching devices");
@@ -119,14 +119,14 @@ void add_run_options(CLI::App& command, Measuring& measuring) {
 }  // namespace
 
 void add_run_commands(Commands& commands) {
-  auto [command, measuring] =
-      commands.add("run", "Measure a plan on the devices of this machine", run, {.chooses = true});
-  add_run_options(command, measuring);
-  command.add_flag("--resume", measuring.resume, "Continue each plan's latest run in the store");
+  auto [command, request] = commands.add("run", "Measure a plan on the devices of this machine",
+                                         run, {.report_fastest = true});
+  add_run_options(command, request);
+  command.add_flag("--resume", request.resume, "Continue each plan's latest run in the store");
   add_example(command, "triptych run volume/quick --device 'vulkan:*' --store results.sqlite");
   command
       .add_option(
-          "--error", measuring.error,
+          "--error", request.error,
           "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max: measure only "
           "levels of the factors step, quadrature, ert, adapt and skip for which the error "
           "relative to the scene's limit image (the exact ray integral) is at most E, and report "

@@ -14,8 +14,8 @@
 #include "core/glob.hpp"
 #include "core/output_files.hpp"
 #include "measure/worker/own_program.hpp"
-#include "report/ci/ctest_answer.hpp"
 #include "report/ci/ctest_list.hpp"
+#include "report/ci/ctest_output.hpp"
 
 namespace triptych::app {
 namespace {
@@ -83,7 +83,7 @@ judge::GateResult judge_store(const CheckArguments& arguments, const record::Sto
   request.checks = {judge::check(arguments.check)};
   request.decides_each_device = false;
   if (!arguments.device.empty()) request.devices = {arguments.device};
-  return judge_named(store, run->id, default_baselines().string(), request);
+  return judge_stored_run(store, run->id, default_baselines().string(), request);
 }
 
 // Judges the plan's latest run in the store. The test is skipped if nothing was judged, or if a
@@ -98,9 +98,9 @@ core::ExitCode check(const CheckArguments& arguments) {
   if (arguments.check == "image") {
     find_truth = [&](const record::Record& record) { return truths.of(record); };
   }
-  put_lines(report::ctest_answer(result, store, find_truth));
-  if (const auto reason = report::reason_to_skip(result)) {
-    put("skipped: {}\n", *reason);
+  print_lines(report::ctest_output(result, store, find_truth));
+  if (const auto reason = report::skip_reason(result)) {
+    print_out("skipped: {}\n", *reason);
     return core::ExitCode::skip;
   }
   return result.exit_code();

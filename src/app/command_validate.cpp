@@ -39,14 +39,14 @@ struct ValidateArguments {
   std::string json;
   PlanChoice choice;  // --set is not offered by this command
   int jobs = 0;       // see measure::RunOptions
-  int limit_s = standard_limit_s;
+  int limit_s = default_limit_s;
   std::string expect;
   std::string write_expect;
   bool resume = false;
   int repeat = 1;
   bool without_data = false;
   bool verbose = false;
-  std::string ci = standard_ci;
+  std::string ci = default_ci;
 };
 
 // A validation checks only images and counters. Every device must draw the correct image with the
@@ -57,7 +57,7 @@ record::Checks checks_of(const record::Checks& of_plan) {
   return {scored ? judge::Check::stress : judge::Check::image, judge::Check::counters};
 }
 
-Measuring measuring_of(const ValidateArguments& arguments, const std::string& file) {
+MeasureRequest measure_request(const ValidateArguments& arguments, const std::string& file) {
   return {.plans = {validation_plans.begin(), validation_plans.end()},
           .choice = arguments.choice,
           .devices = arguments.devices,
@@ -69,23 +69,23 @@ Measuring measuring_of(const ValidateArguments& arguments, const std::string& fi
           .statistics = true,
           .verbose = arguments.verbose,
           .ci = ci_system(arguments.ci),
-          .told_to = stderr};
+          .summary_output = stderr};
 }
 
 // Measures the plans. Returns false if the user interrupted the run; the configurations measured
 // until then are judged nevertheless.
-bool measured_to_its_end(const Measuring& measuring) {
+bool run_to_completion(const MeasureRequest& request) {
   try {
-    measure_resumably(measuring);
+    measure_resumably(request);
     return true;
   } catch (const measure::Interrupted& interrupted) {
-    say("triptych: {}\n", interrupted.what());
+    print_err("triptych: {}\n", interrupted.what());
     return false;
   }
 }
 
 // Returns the ids of the runs that earlier calls of `validate` left in the store.
-std::set<std::string> runs_in(const std::string& file) {
+std::set<std::string> run_ids(const std::string& file) {
   std::set<std::string> ids;
   if (!std::filesystem::exists(file)) return ids;
   for (const record::Run& run : record::Store(file, record::Store::Mode::read).runs()) {
@@ -101,11 +101,11 @@ class Validation {
   Validation(const ValidateArguments& arguments, const std::string& file,
              const std::set<std::string>& before, std::optional<std::vector<judge::Waiver>> known)
       : arguments_(arguments),
-        before_(before),
+        earlier_runs_(before),
         registry_(make_registry()),
         store_(open_to_judge(file)),
         truths_(registry_.find_suite(), store_),
-        known_(std::move(known)) {}
+        known_failures_(std::move(known)) {}
 
   void judge_all() {
     for (const char* typed : validation_plans) {
@@ -159,7 +159,7 @@ class Validation {
 
   // Prints the levels and features that the validation has covered, and writes them to coverage.txt
   // and coverage.json, so that readers know what a pass means.
-  void tell_coverage(const FeatureTable& features) {
+  void report_coverage(const FeatureTable& features) {
     std::vector<record::Record> records;
     for (const judge::GateResult& result : results_) {
       const std::vector<record::Record> of_plan = store_.records(result.run);
@@ -175,10 +175,10 @@ class Validation {
         core::json_text(
             {{"drawn", report::coverage_json(coverage)}, {"features", feature_json(features)}}, 2) +
             "\n");
-    put_lines(text, stderr);
+    print_lines(text, stderr);
   }
 
-  core::ExitCode tell(double seconds) {
+  core::ExitCode report_results(double seconds) {
     if (!arguments_.write_expect.empty()) {
       const auto reason_of = [](const judge::Finding& finding) {
         return report::words::text_of(static_cast<const judge::Observation&>(finding));
@@ -187,13 +187,13 @@ class Validation {
           arguments_.write_expect,
           judge::expected_outcomes_text(judge::expected_outcomes_of(results_, reason_of)));
     }
-    return tell_verdict(store_, truths_, results_, seconds,
-                        {.folder = arguments_.out,
-                         .junit = arguments_.junit,
-                         .markdown = {},
-                         .json = arguments_.json,
-                         .baselines = arguments_.baselines,
-                         .ci = ci_system(arguments_.ci)});
+    return report_verdict(store_, truths_, results_, seconds,
+                          {.folder = arguments_.out,
+                           .junit = arguments_.junit,
+                           .markdown = {},
+                           .json = arguments_.json,
+                           .baselines = arguments_.baselines,
+                           .ci = ci_system(arguments_.ci)});
   }
 
  private:
@@ -215,7 +215,7 @@ class Validation {
     for (const record::Record& each : records) {
       if (each.image.empty() || !each.same_as.empty()) continue;
       const double bound = bound_of(each);
-      if (bound <= report::one_step) continue;
+      if (bound <= report::eight_bit_step) continue;
       const auto samples = each.counters.find("samples");
       const auto rays = each.counters.find("rays_hit");
       const bool has_rays =
@@ -235,30 +235,30 @@ class Validation {
     request.checks = checks_of(plan.checks);
     request.devices = arguments_.devices;
     request.part = !arguments_.choice.is_whole();
-    request.expected_outcomes = known_;
+    request.expected_outcomes = known_failures_;
     const std::optional<record::Run> run = store_.latest_run(plan.name);
-    const std::string id = run && !before_.contains(run->id) ? run->id : "";
-    judge::GateResult result = judge_named(store_, id, arguments_.baselines, request);
+    const std::string id = run && !earlier_runs_.contains(run->id) ? run->id : "";
+    judge::GateResult result = judge_stored_run(store_, id, arguments_.baselines, request);
     if (arguments_.without_data) excuse_absent_data(store_, result);
     return result;
   }
 
   // Draws the failed configurations again. Returns false if the user interrupted the run.
   bool draw_again(const std::string& plan, const judge::CaseSet& places) {
-    say("{}: drawing {} failed configurations again\n", plan, places.size());
-    Measuring measuring = measuring_of(arguments_, store_.file().string());
-    measuring.plans = {plan};
-    measuring.resume = true;
-    measuring.again = places;
-    return measured_to_its_end(measuring);
+    print_err("{}: drawing {} failed configurations again\n", plan, places.size());
+    MeasureRequest request = measure_request(arguments_, store_.file().string());
+    request.plans = {plan};
+    request.resume = true;
+    request.again = places;
+    return run_to_completion(request);
   }
 
   const ValidateArguments& arguments_;
-  const std::set<std::string>& before_;
+  const std::set<std::string>& earlier_runs_;
   Registry registry_;
   record::Store store_;
   measure::Truths truths_;
-  std::optional<std::vector<judge::Waiver>> known_;
+  std::optional<std::vector<judge::Waiver>> known_failures_;
   std::vector<judge::GateResult> results_;
 };
 
@@ -271,9 +271,9 @@ std::vector<judge::Repetition> repeat(const ValidateArguments& arguments, const 
   ValidateArguments again = arguments;
   again.resume = false;
   for (int n = 2; n <= arguments.repeat; ++n) {
-    say("repetition {} of {}\n", n, arguments.repeat);
-    const std::set<std::string> before = runs_in(file);
-    if (!measured_to_its_end(measuring_of(again, file))) break;
+    print_err("repetition {} of {}\n", n, arguments.repeat);
+    const std::set<std::string> before = run_ids(file);
+    if (!run_to_completion(measure_request(again, file))) break;
     Validation validation(again, file, before, known);
     validation.judge_all();
     repetitions.push_back(validation.repetition());
@@ -283,13 +283,13 @@ std::vector<judge::Repetition> repeat(const ValidateArguments& arguments, const 
 
 // Compares the repetitions. Prints the result and writes it to repeats.jsonl, with one line for
 // each case (one configuration of a plan on one device).
-void tell_repeats(const ValidateArguments& arguments,
-                  const std::vector<judge::Repetition>& repetitions, Validation& first) {
+void report_repeats(const ValidateArguments& arguments,
+                    const std::vector<judge::Repetition>& repetitions, Validation& first) {
   const std::vector<judge::RepeatedCase> cases = judge::repeated_cases(repetitions);
   first.add_flakes(cases);
   core::write_text(std::filesystem::path(arguments.out) / "repeats.jsonl",
                    report::repeats_json_lines(cases));
-  put_lines(report::repeats_text(cases, repetitions.size()), stderr);
+  print_lines(report::repeats_text(cases, repetitions.size()), stderr);
 }
 
 // Probes the features of the devices. With --shard, only the first part of the plans probes
@@ -312,19 +312,20 @@ core::ExitCode validate(const ValidateArguments& arguments) {
   if (!arguments.expect.empty()) known = judge::read_expected_outcomes(arguments.expect);
   core::require_writable(arguments.out);
   const std::string file = (std::filesystem::path(arguments.out) / "validation.sqlite").string();
-  const std::set<std::string> before = arguments.resume ? std::set<std::string>{} : runs_in(file);
-  const bool whole = measured_to_its_end(measuring_of(arguments, file));
+  const std::set<std::string> before = arguments.resume ? std::set<std::string>{} : run_ids(file);
+  const bool whole = run_to_completion(measure_request(arguments, file));
   Validation validation(arguments, file, before, known);
   validation.judge_all();
   if (whole) validation.draw_failures_again();
   if (whole && arguments.repeat > 1) {
-    tell_repeats(arguments, repeat(arguments, file, known, validation), validation);
+    report_repeats(arguments, repeat(arguments, file, known, validation), validation);
   }
   const FeatureTable features = whole ? features_of(arguments, validation) : FeatureTable{};
-  validation.tell_coverage(features);
-  const core::ExitCode told = validation.tell(since.seconds());
-  if (verdict_of(features) != core::ExitCode::regression) return told;
-  say("the exit code is 1, because a device failed the probe of an API feature that no scene uses; "
+  validation.report_coverage(features);
+  const core::ExitCode code = validation.report_results(since.seconds());
+  if (verdict_of(features) != core::ExitCode::regression) return code;
+  print_err(
+      "the exit code is 1, because a device failed the probe of an API feature that no scene uses; "
       "see coverage.txt\n");
   return core::ExitCode::regression;
 }

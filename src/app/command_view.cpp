@@ -32,13 +32,13 @@ namespace fs = std::filesystem;
 struct ViewArguments {
   FrameArguments frame;
   std::vector<std::string> devices;
-  int limit_s = standard_limit_s;
+  int limit_s = default_limit_s;
   std::string size = "1280x720";
   std::string screenshot;
   bool json = false;
 };
 
-constexpr std::size_t most_columns = 4;
+constexpr std::size_t max_columns = 4;
 
 // Returns the path of the program that opens the window. Throws InputError if it was not built.
 std::string window_program() {
@@ -66,13 +66,13 @@ void add_sides(const measure::Listing& listing, const std::string& text,
 }
 
 // Returns the first device of each API, but at most as many devices as the window has columns.
-std::vector<measure::ViewSide> one_of_each_api(const measure::Listing& listing) {
+std::vector<measure::ViewSide> first_device_of_each_api(const measure::Listing& listing) {
   std::vector<measure::ViewSide> sides;
   std::vector<std::string> apis;
   for (const record::Device& device : listing.devices) {
     if (std::ranges::find(apis, device.api) != apis.end()) continue;
     apis.push_back(device.api);
-    if (sides.size() < most_columns) sides.push_back({.device = device.id});
+    if (sides.size() < max_columns) sides.push_back({.device = device.id});
   }
   return sides;
 }
@@ -80,19 +80,19 @@ std::vector<measure::ViewSide> one_of_each_api(const measure::Listing& listing) 
 std::vector<measure::ViewSide> sides_of(const ViewArguments& arguments,
                                         const measure::Listing& listing) {
   static_cast<void>(measure::choose_devices(listing, {}));  // throws if the list is empty
-  if (arguments.devices.empty()) return one_of_each_api(listing);
+  if (arguments.devices.empty()) return first_device_of_each_api(listing);
   std::vector<measure::ViewSide> sides;
   for (const std::string& each : arguments.devices) add_sides(listing, each, sides);
-  if (sides.size() > most_columns) {
+  if (sides.size() > max_columns) {
     throw core::InputError(
         fmt::format("--device matches {} devices, but the window can show at most {}", sides.size(),
-                    most_columns));
+                    max_columns));
   }
   return sides;
 }
 
 // Replaces this process with the program that opens the window.
-[[noreturn]] void become(const std::string& program, const std::string& request) {
+[[noreturn]] void exec_program(const std::string& program, const std::string& request) {
   std::string name = "triptych-view";
   std::string argument = request;
   char* const arguments[] = {name.data(), argument.data(), nullptr};
@@ -131,7 +131,7 @@ core::ExitCode view(const ViewArguments& arguments) {
                                .json = arguments.json};
   request.devices = std::move(listing.devices);
   for (const fs::path& each : data_folders()) request.data_folders.push_back(each.string());
-  become(program, core::json_text(core::Json(request)));
+  exec_program(program, core::json_text(core::Json(request)));
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ void add_view_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "view",
       "Show one configuration on several devices in a window, with a mouse-controlled camera", view,
-      {.frame = {.chooses = true}});
+      {.frame = {.allow_auto = true}});
   command.add_option("SUITE", arguments.frame.suite, "volume or particles")->required();
   command.add_option(
       "--device", arguments.devices,

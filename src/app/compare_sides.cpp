@@ -40,28 +40,28 @@ class ComparisonPrinter {
     if (progress.loading) return show_loading(*progress.loading);
     const std::string stage = report::words::stage_of(progress);
     const bool new_stage = std::exchange(stage_, stage) != stage;
-    if (!watched() && !verbose_ && !new_stage && !signs_.due()) return;
+    if (!stderr_is_terminal() && !verbose_ && !new_stage && !heartbeat_.due()) return;
     const auto seconds = progress.left.count();
     const std::string left =
-        seconds > 0 ? ", at most " + report::rough_time(progress.left) + " left" : "";
-    show("{}/{} {}: {}{}", progress.done, progress.total, stage,
-         record::short_name(progress.configuration), left);
+        seconds > 0 ? ", at most " + report::rounded_duration(progress.left) + " left" : "";
+    show_progress("{}/{} {}: {}{}", progress.done, progress.total, stage,
+                  record::short_name(progress.configuration), left);
   }
 
  private:
   bool verbose_;
   std::string stage_;
-  report::SignsOfLife signs_;
+  report::Heartbeat heartbeat_;
 };
 
-report::ComparisonCommand command_of(const Comparing& comparing, const std::string& typed,
+report::ComparisonCommand command_of(const ComparisonRequest& request, const std::string& typed,
                                      const measure::Plan& plan) {
-  report::ComparisonCommand command{.plan = typed, .sides = comparing.sides, .varied = plan.varied};
-  for (const std::string& each : comparing.faults)
+  report::ComparisonCommand command{.plan = typed, .sides = request.sides, .varied = plan.varied};
+  for (const std::string& each : request.faults)
     command.sides += " --inject " + core::shell_quoted(each);
   // If --set gives a factor a single level, the factor no longer varies in the plan, but the
   // printed commands must still contain it.
-  for (const auto& [factor, values] : comparing.choice.overrides()) {
+  for (const auto& [factor, values] : request.choice.overrides()) {
     if (std::ranges::find(command.varied, factor) == command.varied.end()) {
       command.varied.push_back(factor);
     }
@@ -69,7 +69,7 @@ report::ComparisonCommand command_of(const Comparing& comparing, const std::stri
   return command;
 }
 
-struct Told {
+struct FinishedComparison {
   comparison::ComparisonResult result;
   report::ComparisonCommand command;
 };
@@ -84,25 +84,25 @@ class Comparer {
     store_.require_whole();  // a damaged store could contain wrong reference images
   }
 
-  [[nodiscard]] Told compare(const Comparing& comparing, const std::string& typed,
-                             measure::Plan plan) {
+  [[nodiscard]] FinishedComparison compare(const ComparisonRequest& request,
+                                           const std::string& typed, measure::Plan plan) {
     comparison::ComparisonOptions options{
         .plan = std::move(plan),
-        .a = comparing.a,
-        .b = comparing.b,
-        .faults = measure::parse_faults(comparing.faults),
-        .limit = std::chrono::seconds(comparing.limit_s),
-        .seed = comparing.seed,
-        .times = comparing.times,
+        .a = request.a,
+        .b = request.b,
+        .faults = measure::parse_faults(request.faults),
+        .limit = std::chrono::seconds(request.limit_s),
+        .seed = request.seed,
+        .times = request.times,
     };
     for (const measure::InjectedFault& each : options.faults) measure::check_fault(each.fault);
-    if (comparing.budget_s > 0) options.budget = std::chrono::seconds(comparing.budget_s);
-    ComparisonPrinter printer(comparing.verbose);
+    if (request.budget_s > 0) options.budget = std::chrono::seconds(request.budget_s);
+    ComparisonPrinter printer(request.verbose);
     comparison::ComparisonResult result = comparison::compare(
         options, registry_.suite(options.plan.suite), store_, truths_,
         [&](const comparison::ComparisonProgress& progress) { printer.print(progress); });
     clear_line();
-    return {std::move(result), command_of(comparing, typed, options.plan)};
+    return {std::move(result), command_of(request, typed, options.plan)};
   }
 
  private:
@@ -116,33 +116,35 @@ bool is_program(const std::string& file) {
   return ::access(file.c_str(), X_OK) == 0 && fs::is_regular_file(file);
 }
 
-void tell(const std::vector<Told>& all, bool json) {
+void print_results(const std::vector<FinishedComparison>& all, bool json) {
   if (json) {
     core::Json found = core::Json::array();
-    for (const Told& each : all) found.push_back(report::to_json(each.result, each.command));
+    for (const FinishedComparison& each : all)
+      found.push_back(report::to_json(each.result, each.command));
     return print(found.size() == 1 ? found.front() : found);
   }
-  for (const Told& each : all) put_lines(report::screen_of(each.result, each.command) + "\n");
+  for (const FinishedComparison& each : all)
+    print_lines(report::screen_of(each.result, each.command) + "\n");
   if (all.size() == 1) return;
-  for (const Told& each : all) {
-    put("{:<16} {:<16} {}\n", each.result.b.id, each.command.plan,
-        report::words::headline(each.result));
+  for (const FinishedComparison& each : all) {
+    print_out("{:<16} {:<16} {}\n", each.result.b.id, each.command.plan,
+              report::words::headline(each.result));
   }
 }
 
 }  // namespace
 
-const std::vector<std::string> main_job{"volume/quick", "particles/quick", "volume/cost",
-                                        "particles/cost"};
+const std::vector<std::string> default_plans{"volume/quick", "particles/quick", "volume/cost",
+                                             "particles/cost"};
 
-core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool json) {
+core::ExitCode compare_and_print(const std::vector<ComparisonRequest>& comparisons, bool json) {
   const Registry registry = make_registry();
-  std::vector<Told> all;
+  std::vector<FinishedComparison> all;
   core::ExitCode code = core::ExitCode::pass;
-  for (const Comparing& each : comparisons) {
+  for (const ComparisonRequest& each : comparisons) {
     if (!each.store.empty()) core::require_writable(fs::path(each.store).parent_path());
     Comparer comparer(registry, each.store);
-    for (const std::string& typed : each.plans.empty() ? main_job : each.plans) {
+    for (const std::string& typed : each.plans.empty() ? default_plans : each.plans) {
       measure::Plan plan = each.choice.load(typed, registry.find_suite());
       if (plan.configurations.empty() && each.choice.selects()) continue;
       try {
@@ -154,7 +156,7 @@ core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool 
     }
   }
   if (all.empty() && !comparisons.empty()) throw nothing_selected(comparisons.front().choice);
-  tell(all, json);
+  print_results(all, json);
   return code;
 }
 
@@ -166,8 +168,8 @@ std::vector<std::string> worker_of(const std::string& option, const std::string&
   const std::string file = fs::absolute(program).string();
   // The version need not be at the beginning of the output, because a driver may have printed
   // something before it.
-  const std::string told = measure::output_of({file, "--version"}).value_or("");
-  if (("\n" + told).find("\ntriptych ") == std::string::npos) {
+  const std::string version_output = measure::output_of({file, "--version"}).value_or("");
+  if (("\n" + version_output).find("\ntriptych ") == std::string::npos) {
     throw core::InputError(fmt::format(
         "{} {}: this program is not a build of triptych, judging by its --version output", option,
         program));
@@ -175,8 +177,8 @@ std::vector<std::string> worker_of(const std::string& option, const std::string&
   return measure::worker_command(file);
 }
 
-std::vector<Comparing> against_base(const std::string& base,
-                                    const std::vector<std::string>& devices) {
+std::vector<ComparisonRequest> comparisons_with_base(const std::string& base,
+                                                     const std::vector<std::string>& devices) {
   const bool program = is_program(base);
   const std::vector<std::string> own = measure::worker_command();
   std::vector<std::string> command = own;
@@ -189,7 +191,7 @@ std::vector<Comparing> against_base(const std::string& base,
   } else {
     environment = measure::parse_environment(base, "--base " + base);
   }
-  std::vector<Comparing> comparisons;
+  std::vector<ComparisonRequest> comparisons;
   for (const std::string& device : devices) {
     const std::string a = program ? device : device + "," + base;
     std::string sides =

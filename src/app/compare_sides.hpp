@@ -12,10 +12,10 @@ namespace triptych::app {
 
 // The plans that `gate` and `compare` use by default. The first two check images, work and times;
 // the last two count instructions.
-extern const std::vector<std::string> main_job;
+extern const std::vector<std::string> default_plans;
 
-struct Comparing {
-  std::vector<std::string> plans;  // as typed by the user; empty: main_job
+struct ComparisonRequest {
+  std::vector<std::string> plans;  // as typed by the user; empty: default_plans
   PlanChoice choice = {};
   measure::SideOptions a;
   measure::SideOptions b;
@@ -23,14 +23,15 @@ struct Comparing {
   std::vector<std::string> faults = {};  // injected into side b
   std::string store = {};                // file that receives both runs of each plan; empty: none
   int budget_s = 0;                      // in seconds; 0: no limit
-  int limit_s = standard_limit_s;
+  int limit_s = default_limit_s;
   std::uint64_t seed = 1;
   bool times = true;
   bool verbose = false;
 };
 
 // Compares the sides, prints the differences, and returns the exit code for all comparisons.
-[[nodiscard]] core::ExitCode compare_and_tell(const std::vector<Comparing>& comparisons, bool json);
+[[nodiscard]] core::ExitCode compare_and_print(const std::vector<ComparisonRequest>& comparisons,
+                                               bool json);
 
 // Returns the worker command (see measure::worker_command) of another build. Throws InputError with
 // the option's name if the file is not an executable build of triptych. Without this check, a
@@ -40,7 +41,7 @@ struct Comparing {
 
 // Returns the comparisons of each device with the same device under `base`, which is the path of
 // another build or "NAME=VALUE,…".
-[[nodiscard]] std::vector<Comparing> against_base(const std::string& base,
-                                                  const std::vector<std::string>& devices);
+[[nodiscard]] std::vector<ComparisonRequest> comparisons_with_base(
+    const std::string& base, const std::vector<std::string>& devices);
 
 }  // namespace triptych::app

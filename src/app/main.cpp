@@ -79,13 +79,13 @@ ExitCode run(int argc, char** argv) {
       program.exit(error);
       return ExitCode::pass;
     }
-    app::say("triptych: {}\nRun with --help for more information.\n", error.what());
+    app::print_err("triptych: {}\nRun with --help for more information.\n", error.what());
     // An older commit may lack some of the options on the command line. `git bisect` must skip such
     // a commit, because the resulting error is not a verdict on the commit.
     const auto arguments = std::span(argv, static_cast<std::size_t>(argc));
     const bool bisects =
         std::ranges::find(arguments, std::string_view("--bisect")) != arguments.end();
-    return bisects ? app::bisect_skips : ExitCode::usage;
+    return bisects ? app::bisect_skip_code : ExitCode::usage;
   }
   return commands.chosen();
 }
@@ -94,13 +94,13 @@ ExitCode run_and_catch(int argc, char** argv) {
   try {
     return core::naming({}, [&] { return run(argc, argv); });
   } catch (const record::NotMeasured& error) {
-    app::say("triptych: {}\n", report::words::text_of(error.outcome(), error.reason()));
+    app::print_err("triptych: {}\n", report::words::text_of(error.outcome(), error.reason()));
     return error.exit_code();
   } catch (const core::NotSupported& error) {
-    app::say("triptych: {}\n", error.what());
+    app::print_err("triptych: {}\n", error.what());
     return ExitCode::cannot_judge;
   } catch (const std::exception& error) {
-    app::say("triptych: {}\n", error.what());
+    app::print_err("triptych: {}\n", error.what());
     return ExitCode::usage;
   }
 }

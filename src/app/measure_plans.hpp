@@ -15,17 +15,17 @@
 
 namespace triptych::app {
 
-struct Measuring {
+struct MeasureRequest {
   std::vector<std::string> plans = {};    // as typed by the user
   PlanChoice choice = {};                 // --set for a single plan, --shard for each plan
   std::vector<std::string> devices = {};  // globs
   // Globs of devices that must be measured. If one of them cannot be used, the run records why.
   std::vector<std::string> required = {};
-  std::string store = standard_store;
+  std::string store = default_store;
   bool resume = false;  // continue the plans' latest runs instead of beginning new runs
   std::set<std::pair<std::string, std::string>> again = {};  // see measure::RunOptions
   int jobs = 0;                                              // see measure::RunOptions
-  int limit_s = standard_limit_s;
+  int limit_s = default_limit_s;
   std::optional<std::uint64_t> memory = {};  // bytes that a worker may allocate
   std::vector<std::string> faults = {};
   bool measure_every = false;
@@ -34,24 +34,24 @@ struct Measuring {
   bool statistics = false;  // also read the statistics in an untimed run
   bool timed = false;       // also measure times for plans without the check `timing`
   std::optional<std::string> error = {};  // requested error, as typed by the user
-  bool chooses = false;                   // report the fastest technique if a plan contains `auto`
+  bool report_fastest = false;            // report the fastest technique if a plan contains `auto`
   bool verbose = false;                   // print a line for each configuration
   CiSystem ci = CiSystem::none;           // the CI system that shows the log
-  std::FILE* told_to = stdout;
+  std::FILE* summary_output = stdout;
 };
 
-struct Measured {
+struct MeasureResult {
   bool scored = false;  // whether a plan has the check `stress`, whose scores report failures
   std::vector<measure::RunResult> results = {};  // in the same order as the plans
-  bool error_kept = true;  // whether every device meets the requested error in every scene
+  bool error_met = true;  // whether every device meets the requested error in every scene
 };
 
 // Measures the plans and prints a few lines about the results. Throws the same exceptions as
 // measure::run_plans().
-Measured measure_and_tell(const Measuring& measuring);
+MeasureResult measure_and_print(const MeasureRequest& request);
 
-// Like measure_and_tell(), for commands with the option --resume. If the run is interrupted, the
+// Like measure_and_print(), for commands with the option --resume. If the run is interrupted, the
 // exception's message mentions --resume.
-Measured measure_resumably(const Measuring& measuring);
+MeasureResult measure_resumably(const MeasureRequest& request);
 
 }  // namespace triptych::app

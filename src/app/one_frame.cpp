@@ -9,7 +9,7 @@ void FrameArguments::add_to(CLI::App& command) {
   command.add_option("SUITE", suite, "Suite: volume or particles")->required();
   CLI::Option* const option = command.add_option(
       "--device", device, "Device id, or a glob that matches exactly one device");
-  if (!describes) option->required();
+  if (!device_optional) option->required();
   command.add_option("--set", set,
                      "factor=level: set this factor to this level (repeatable); write a comma "
                      "inside a level as %2C");
@@ -20,7 +20,7 @@ ChosenData choose_data(const Registry& registry, const FrameArguments& arguments
   measure::SuiteWithTruth& suite = registry.suite(arguments.suite);
   measure::Plan plan = measure::default_plan(suite, PlanChoice{.set = arguments.set}.overrides());
   std::vector<std::string> several = plan.varied;
-  if (arguments.chooses) {
+  if (arguments.allow_auto) {
     std::erase_if(several, [&](const auto& factor) { return plan.automatic.contains(factor); });
   }
   if (!several.empty()) {

@@ -16,8 +16,9 @@ struct FrameArguments {
   std::string out = {};
   std::vector<std::string> faults = {};
 
-  bool chooses = false;    // whether the level "auto" (several techniques) is allowed
-  bool describes = false;  // whether --device is optional, because data can be described without it
+  bool allow_auto = false;  // whether the level "auto" (several techniques) is allowed
+  // Whether --device is optional, because data can be described without it.
+  bool device_optional = false;
 
   void add_to(CLI::App& command);  // adds all options except --out
 };

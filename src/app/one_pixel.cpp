@@ -17,7 +17,7 @@
 namespace triptych::app {
 namespace {
 
-constexpr std::size_t lines_shown = 60;
+constexpr std::size_t max_table_lines = 60;
 
 int parse_coordinate(std::string_view text, std::string_view whole) {
   int number = 0;
@@ -65,9 +65,9 @@ std::vector<accuracy::TakenSample> taken_samples(const technique::RayTrace& trac
   std::vector<accuracy::TakenSample> samples;
   for (const technique::TracedSample& traced : trace.samples) {
     const accuracy::TakenSample taken = taken_sample(traced);
-    const bool continues = traced.kind == technique::TracedKind::step && !samples.empty() &&
-                           samples.back().position == taken.position;
-    if (continues) {
+    const bool is_same_step = traced.kind == technique::TracedKind::step && !samples.empty() &&
+                              samples.back().position == taken.position;
+    if (is_same_step) {
       add_part_of_step(samples.back(), taken);
     } else {
       samples.push_back(taken);
@@ -94,13 +94,13 @@ measure::PixelPlace parse_pixel(std::string_view text) {
 
 namespace {
 
-struct Shown {
+struct HistoryText {
   report::PixelText text;
   bool differs = false;
 };
 
-Shown history_of_volume(measure::SuiteWithTruth& suite, const measure::FrameInProcess& drawn,
-                        report::PixelInImage pixel) {
+HistoryText history_of_volume(measure::SuiteWithTruth& suite, const measure::FrameInProcess& drawn,
+                              report::PixelInImage pixel) {
   const measure::TracedPixel& traced = drawn.traced.value();
   auto* const expects = dynamic_cast<measure::ExpectsRay*>(&suite);
   if (expects == nullptr) throw core::NotSupported(measure::not_traced);
@@ -112,16 +112,16 @@ Shown history_of_volume(measure::SuiteWithTruth& suite, const measure::FrameInPr
   return {.text = report::pixel_text(pixel, history), .differs = history.first.has_value()};
 }
 
-Shown history_of_particles(const accuracy::SpriteHistory& history,
-                           const report::PixelInImage& pixel) {
+HistoryText history_of_particles(const accuracy::SpriteHistory& history,
+                                 const report::PixelInImage& pixel) {
   return {.text = report::pixel_text(pixel, history),
           .differs = history.first.has_value() || !history.smallest_set.empty()};
 }
 
 }  // namespace
 
-core::ExitCode show_pixel(measure::SuiteWithTruth& suite, const measure::FrameInProcess& drawn,
-                          const accuracy::TruthPair& truth, const std::filesystem::path& out) {
+core::ExitCode print_pixel(measure::SuiteWithTruth& suite, const measure::FrameInProcess& drawn,
+                           const accuracy::TruthPair& truth, const std::filesystem::path& out) {
   const measure::TracedPixel& traced = drawn.traced.value();
   const report::PixelInImage pixel{.x = traced.place.x,
                                    .y = traced.place.y,
@@ -130,18 +130,18 @@ core::ExitCode show_pixel(measure::SuiteWithTruth& suite, const measure::FrameIn
                                    .reference = colour_at(truth.truth, traced.place),
                                    .bound = colour_at(truth.bound, traced.place)[0],
                                    .lost = 0};
-  const Shown shown = traced.sprites ? history_of_particles(*traced.sprites, pixel)
-                                     : history_of_volume(suite, drawn, pixel);
+  const HistoryText shown = traced.sprites ? history_of_particles(*traced.sprites, pixel)
+                                           : history_of_volume(suite, drawn, pixel);
   std::string whole;
   for (const auto* lines : {&shown.text.summary, &shown.text.table}) {
     for (const std::string& line : *lines) whole += line + "\n";
   }
   core::write_text(out / "pixel.txt", whole);
-  for (const std::string& line : shown.text.summary) put_lines(line + "\n");
-  for (const std::string& line : report::part_of_table(shown.text, lines_shown)) {
-    put_lines(line + "\n");
+  for (const std::string& line : shown.text.summary) print_lines(line + "\n");
+  for (const std::string& line : report::part_of_table(shown.text, max_table_lines)) {
+    print_lines(line + "\n");
   }
-  put("{}\n", (out / "pixel.txt").string());
+  print_out("{}\n", (out / "pixel.txt").string());
   return shown.differs || !report::is_within_bound(pixel) ? core::ExitCode::regression
                                                           : core::ExitCode::pass;
 }

@@ -19,9 +19,9 @@ namespace triptych::app {
 // pixel.txt in the folder `out`. Returns ExitCode::regression if a sample of the volume or a
 // visible surface differs from the reference renderer's. Throws NotSupported if the suite cannot
 // trace the pixel.
-[[nodiscard]] core::ExitCode show_pixel(measure::SuiteWithTruth& suite,
-                                        const measure::FrameInProcess& drawn,
-                                        const accuracy::TruthPair& truth,
-                                        const std::filesystem::path& out);
+[[nodiscard]] core::ExitCode print_pixel(measure::SuiteWithTruth& suite,
+                                         const measure::FrameInProcess& drawn,
+                                         const accuracy::TruthPair& truth,
+                                         const std::filesystem::path& out);
 
 }  // namespace triptych::app

@@ -20,7 +20,7 @@ namespace triptych::app {
 // very long strings are truncated. Only the format string may contain characters that move the
 // cursor or end a line.
 template <typename Arg>
-auto shown(const Arg& arg) {
+auto escaped_argument(const Arg& arg) {
   if constexpr (std::convertible_to<const Arg&, std::string_view>) {
     return core::printable(arg);
   } else {
@@ -29,8 +29,8 @@ auto shown(const Arg& arg) {
 }
 
 template <typename... Args>
-std::string shown_text(fmt::format_string<Args...> format, Args&&... args) {
-  const auto all = std::make_tuple(shown(args)...);
+std::string escaped_text(fmt::format_string<Args...> format, Args&&... args) {
+  const auto all = std::make_tuple(escaped_argument(args)...);
   return std::apply(
       [&](const auto&... each) {
         return fmt::vformat(fmt::string_view(format), fmt::make_format_args(each...));
@@ -39,37 +39,37 @@ std::string shown_text(fmt::format_string<Args...> format, Args&&... args) {
 }
 
 template <typename... Args>
-void say(fmt::format_string<Args...> format, Args&&... args) {
-  const std::string text = shown_text(format, std::forward<Args>(args)...);
+void print_err(fmt::format_string<Args...> format, Args&&... args) {
+  const std::string text = escaped_text(format, std::forward<Args>(args)...);
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 
-// Like say(), but prints to stdout.
+// Like print_err(), but prints to stdout.
 template <typename... Args>
-void put(fmt::format_string<Args...> format, Args&&... args) {
-  const std::string text = shown_text(format, std::forward<Args>(args)...);
+void print_out(fmt::format_string<Args...> format, Args&&... args) {
+  const std::string text = escaped_text(format, std::forward<Args>(args)...);
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout));
 }
 
 // Prints text that already consists of lines. Control characters other than line ends are escaped.
-inline void put_lines(std::string_view text, std::FILE* to = stdout) {
+inline void print_lines(std::string_view text, std::FILE* to = stdout) {
   const std::string lines = core::printable_lines(text);
   static_cast<void>(std::fwrite(lines.data(), 1, lines.size(), to));
 }
 
 // Returns whether stderr is a terminal.
-[[nodiscard]] bool watched();
+[[nodiscard]] bool stderr_is_terminal();
 // Returns the width of the terminal in columns, or 0 if stderr is not a terminal.
-[[nodiscard]] std::size_t columns();
-// On a terminal, erases the progress line that show_line() has printed.
+[[nodiscard]] std::size_t terminal_width();
+// On a terminal, erases the progress line that show_progress_line() has printed.
 void clear_line();
 
 // Shows progress. On a terminal, this is a single line, truncated to the terminal's width, which
 // each call overwrites. If stderr is not a terminal, each call prints a new line.
-void show_line(std::string_view text);
+void show_progress_line(std::string_view text);
 template <typename... Args>
-void show(fmt::format_string<Args...> format, Args&&... args) {
-  show_line(shown_text(format, std::forward<Args>(args)...));
+void show_progress(fmt::format_string<Args...> format, Args&&... args) {
+  show_progress_line(escaped_text(format, std::forward<Args>(args)...));
 }
 // Prints a note about an assumption that was made about the data. Each note is printed only once,
 // although every process that loads the data sends it.

@@ -28,7 +28,7 @@
 #include "report/exports/benchmark_json.hpp"
 #include "report/overview.hpp"
 #include "report/page/page.hpp"
-#include "report/screen/last_screen.hpp"
+#include "report/screen/summary_screen.hpp"
 
 namespace triptych::app {
 namespace {
@@ -37,13 +37,14 @@ report::ScreenOptions screen_for(const record::Store& store) {
   report::ScreenOptions options;
   options.store_option = store_option(store.file().string());
   constexpr std::size_t widest = 120;
-  if (const std::size_t width = columns(); width > 0) options.width = std::min(width, widest);
+  if (const std::size_t width = terminal_width(); width > 0)
+    options.width = std::min(width, widest);
   options.colours = ::isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
   return options;
 }
 
-std::string page_about(const record::Store& store, measure::Truths& truths,
-                       const std::vector<judge::GateResult>& results) {
+std::string page_for(const record::Store& store, measure::Truths& truths,
+                     const std::vector<judge::GateResult>& results) {
   report::PageRequest request{
       .plans = {}, .truth = [&](const record::Record& record) { return truths.of(record); }};
   const std::vector<record::Run> runs = store.runs();
@@ -89,19 +90,20 @@ std::string latest_run_of(const record::Store& store, const std::string& plan,
 }
 
 std::string store_option(const std::string& file) {
-  return file == standard_store ? std::string() : " --store " + core::shell_quoted(file);
+  return file == default_store ? std::string() : " --store " + core::shell_quoted(file);
 }
 
-judge::GateResult judge_named(const record::Store& store, const std::string& run,
-                              const std::string& baselines, const judge::GateRequest& request) {
+judge::GateResult judge_stored_run(const record::Store& store, const std::string& run,
+                                   const std::string& baselines,
+                                   const judge::GateRequest& request) {
   return core::naming(fmt::format("{}: run {}", store.file().string(), run), [&] {
     judge::GateRequest complete = request;
     complete.store_option = store_option(store.file().string());
-    const bool elsewhere = baselines != default_baselines().string();
-    if (elsewhere) complete.baselines_option = " --baselines " + core::shell_quoted(baselines);
+    const bool other_folder = baselines != default_baselines().string();
+    if (other_folder) complete.baselines_option = " --baselines " + core::shell_quoted(baselines);
     judge::GateResult result =
         judge::judge_run(store, run, judge::Baselines(baselines, request.plan), complete);
-    if (elsewhere) result.baselines = baselines;
+    if (other_folder) result.baselines = baselines;
     return result;
   });
 }
@@ -146,9 +148,9 @@ judge::GateRequest request_of(measure::Truths& truths, const measure::Plan& plan
   request.plan_hash = plan.hash;
   for (const measure::Configuration& each : plan.configurations) {
     request.expected.push_back(measure::configuration_key(suite, each));
-    const auto said = record::parse_factor_list(request.expected.back());
+    const auto named_in_key = record::parse_factor_list(request.expected.back());
     for (const std::string& factor : plan.named) {
-      if (!said.contains(factor)) request.defaults.emplace(factor, each.at(factor));
+      if (!named_in_key.contains(factor)) request.defaults.emplace(factor, each.at(factor));
     }
   }
   return request;
@@ -158,31 +160,31 @@ std::string page_of(const record::Store& store, measure::Truths& truths,
                     const std::string& baselines) {
   std::vector<judge::GateResult> results;
   for (const record::Run& run : latest_runs(store)) {
-    results.push_back(judge_named(store, run.id, baselines, request_of(truths, run.plan)));
+    results.push_back(judge_stored_run(store, run.id, baselines, request_of(truths, run.plan)));
   }
-  return page_about(store, truths, results);
+  return page_for(store, truths, results);
 }
 
 namespace {
 
-report::FindingPlaces places_of(const record::Store& store,
-                                const std::vector<judge::GateResult>& results,
-                                const VerdictFiles& files) {
-  report::FindingPlaces::Sources sources{.repository = ci_repository(files.ci),
-                                         .baselines = files.baselines,
-                                         .job = ci_job_file(files.ci)};
+report::FindingLocations locations_of(const record::Store& store,
+                                      const std::vector<judge::GateResult>& results,
+                                      const VerdictFiles& files) {
+  report::FindingLocations::Sources sources{.repository = ci_repository(files.ci),
+                                            .baselines = files.baselines,
+                                            .job = ci_job_file(files.ci)};
   for (const judge::GateResult& result : results) {
     for (const auto& entry : store.devices(result.run)) {
       sources.devices.emplace(entry.device.id, entry.device);
     }
   }
-  return report::FindingPlaces(std::move(sources));
+  return report::FindingLocations(std::move(sources));
 }
 
 report::JunitFacts junit_facts(const record::Store& store,
                                const std::vector<judge::GateResult>& results,
-                               const report::FindingPlaces& places) {
-  report::JunitFacts facts{.places = &places};
+                               const report::FindingLocations& locations) {
+  report::JunitFacts facts{.locations = &locations};
   for (const judge::GateResult& result : results) {
     for (const record::Record& record : store.records(result.run)) {
       const double ns = record.prepare_ns + record.loop_wall_ns + record.overhead_ns;
@@ -194,42 +196,43 @@ report::JunitFacts junit_facts(const record::Store& store,
 
 // Prints annotations and writes the job summary for GitHub, which does not read them from the
 // output folder.
-void tell_ci(const std::vector<judge::GateResult>& results, const report::FindingPlaces& places,
-             CiSystem ci) {
+void report_to_ci(const std::vector<judge::GateResult>& results,
+                  const report::FindingLocations& locations, CiSystem ci) {
   if (ci != CiSystem::github) return;
-  const std::string commands = report::github_annotations(results, places);
+  const std::string commands = report::github_annotations(results, locations);
   static_cast<void>(std::fwrite(commands.data(), 1, commands.size(), stderr));
   add_to_job_summary(ci, report::markdown(results));
 }
 
 }  // namespace
 
-core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
-                            const std::vector<judge::GateResult>& results, double seconds,
-                            const VerdictFiles& files) {
-  const report::FindingPlaces places = places_of(store, results, files);
+core::ExitCode report_verdict(const record::Store& store, measure::Truths& truths,
+                              const std::vector<judge::GateResult>& results, double seconds,
+                              const VerdictFiles& files) {
+  const report::FindingLocations locations = locations_of(store, results, files);
   const report::JunitFacts facts = files.junit.empty() && files.folder.empty()
                                        ? report::JunitFacts{}
-                                       : junit_facts(store, results, places);
+                                       : junit_facts(store, results, locations);
   if (!files.junit.empty()) core::write_text(files.junit, report::junit(results, facts));
   if (!files.markdown.empty()) core::write_text(files.markdown, report::markdown(results));
   std::vector<std::string> written;
   if (!files.folder.empty()) {
     core::require_writable(files.folder);
-    written = report::write_folder(
-        files.folder, results,
-        {.page = page_about(store, truths, results),
-         .benchmark = report::benchmark_json(store, latest_runs(store)),
-         .code_quality = files.ci == CiSystem::gitlab ? report::gitlab_code_quality(results, places)
-                                                      : std::string(),
-         .junit = facts});
+    written =
+        report::write_folder(files.folder, results,
+                             {.page = page_for(store, truths, results),
+                              .benchmark = report::benchmark_json(store, latest_runs(store)),
+                              .code_quality = files.ci == CiSystem::gitlab
+                                                  ? report::gitlab_code_quality(results, locations)
+                                                  : std::string(),
+                              .junit = facts});
   }
-  tell_ci(results, places, files.ci);
+  report_to_ci(results, locations, files.ci);
   if (files.json == "-") {
     fmt::print("{}", report::json(results));
   } else {
     if (!files.json.empty()) core::write_text(files.json, report::json(results));
-    fmt::print("{}", report::last_screen(results, seconds, written, screen_for(store)));
+    fmt::print("{}", report::summary_screen(results, seconds, written, screen_for(store)));
   }
   return report::overview(results).code;
 }

@@ -32,9 +32,9 @@ void require_store(const std::filesystem::path& file);
 
 // Like judge::judge_run(), but if a library throws because of the store's content, the error names
 // the store.
-[[nodiscard]] judge::GateResult judge_named(const record::Store& store, const std::string& run,
-                                            const std::string& baselines,
-                                            const judge::GateRequest& request);
+[[nodiscard]] judge::GateResult judge_stored_run(const record::Store& store, const std::string& run,
+                                                 const std::string& baselines,
+                                                 const judge::GateRequest& request);
 
 // Returns a request to judge a plan on all devices with all of the plan's checks, using the
 // reference images in `truths`. Waivers that have expired by today's date do not apply.
@@ -53,17 +53,17 @@ struct VerdictFiles {
   std::string folder;  // the folder for the files described in report/ci/folder.hpp
   std::string junit;
   std::string markdown;
-  std::string json;       // "-": print JSON instead of the summary in report/screen/last_screen.hpp
+  std::string json;  // "-": print JSON instead of the summary in report/screen/summary_screen.hpp
   std::string baselines;  // the folder of the baselines that were used
   CiSystem ci = CiSystem::none;
 };
 
 // Writes the files and the output for the CI system, and prints a summary
-// (report/screen/last_screen.hpp), which lists the files in the folder. `seconds` is the total time
-// of the command. Returns the exit code for all results.
-core::ExitCode tell_verdict(const record::Store& store, measure::Truths& truths,
-                            const std::vector<judge::GateResult>& results, double seconds,
-                            const VerdictFiles& files);
+// (report/screen/summary_screen.hpp), which lists the files in the folder. `seconds` is the total
+// time of the command. Returns the exit code for all results.
+core::ExitCode report_verdict(const record::Store& store, measure::Truths& truths,
+                              const std::vector<judge::GateResult>& results, double seconds,
+                              const VerdictFiles& files);
 
 // Returns the HTML page about the latest run of each plan in the store, judged with all checks of
 // the plan. The store must contain a run.

@@ -32,7 +32,7 @@ RunSide side_of(const record::Store& store, const measure::RunResult& result) {
   return {store, result.run, store.devices(result.run).at(0).device};
 }
 
-ComparisonProgress as_ours(const measure::Progress& progress) {
+ComparisonProgress comparison_progress(const measure::Progress& progress) {
   return {.stage = ComparisonStage::deterministic,
           .configuration = progress.configuration,
           .done = progress.done,
@@ -41,25 +41,27 @@ ComparisonProgress as_ours(const measure::Progress& progress) {
           .loading = progress.loading};
 }
 
-void choose_clock(const ConfigurationDiff& diff, Compared& compared) {
+void choose_clock(const ConfigurationDiff& diff, ComparedConfiguration& compared) {
   const auto [a, b] = diff.device_clock_trusted;
   if (a && b) {
     compared.clock = measure::SideClock::device;
   } else if (!a && !b) {
-    compared.why_wall = WallClockCause::neither_calibrated;
+    compared.wall_clock_cause = WallClockCause::neither_calibrated;
   } else {
-    compared.why_wall = a ? WallClockCause::b_not_calibrated : WallClockCause::a_not_calibrated;
+    compared.wall_clock_cause =
+        a ? WallClockCause::b_not_calibrated : WallClockCause::a_not_calibrated;
   }
 }
 
-Compared compared_by(const ConfigurationDiff& diff, const measure::Configuration& configuration) {
-  Compared compared{.key = diff.key,
-                    .configuration = configuration,
-                    .ended = diff.ended,
-                    .reason = diff.no_time,
-                    .shift = {},
-                    .work = diff.work,
-                    .differences = diff.differences};
+ComparedConfiguration compared_configuration(const ConfigurationDiff& diff,
+                                             const measure::Configuration& configuration) {
+  ComparedConfiguration compared{.key = diff.key,
+                                 .configuration = configuration,
+                                 .ended = diff.ended,
+                                 .reason = diff.no_time,
+                                 .shift = {},
+                                 .work = diff.work,
+                                 .differences = diff.differences};
   choose_clock(diff, compared);
   return compared;
 }
@@ -67,7 +69,8 @@ Compared compared_by(const ConfigurationDiff& diff, const measure::Configuration
 }  // namespace
 
 ComparisonResult compare(const ComparisonOptions& options, const measure::Suite& suite,
-                         record::Store& store, measure::Truths& truths, const Tell& tell) {
+                         record::Store& store, measure::Truths& truths,
+                         const OnProgress& on_progress) {
   const measure::Stopwatch stopwatch;
   measure::SidesRun sides{options.plan,
                           suite,
@@ -76,7 +79,7 @@ ComparisonResult compare(const ComparisonOptions& options, const measure::Suite&
   sides.options[1].faults = options.faults;
   const auto runs = measure::run_sides(sides, store, [&](const measure::Progress& progress) {
     require_opened(store, progress.record);
-    if (tell) tell(as_ours(progress));
+    if (on_progress) on_progress(comparison_progress(progress));
   });
   const RunSide a = side_of(store, runs[0]);
   const RunSide b = side_of(store, runs[1]);
@@ -93,9 +96,9 @@ ComparisonResult compare(const ComparisonOptions& options, const measure::Suite&
     by_key[measure::configuration_key(suite, each)] = &each;
   }
   for (const ConfigurationDiff& each : diff.configurations) {
-    result.configurations.push_back(compared_by(each, *by_key.at(each.key)));
+    result.configurations.push_back(compared_configuration(each, *by_key.at(each.key)));
   }
-  if (result.timed) measure_times(options, stopwatch, tell, result.configurations);
+  if (result.timed) measure_times(options, stopwatch, on_progress, result.configurations);
   result.seconds = stopwatch.seconds();
   return result;
 }

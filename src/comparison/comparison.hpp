@@ -29,7 +29,7 @@ struct ComparisonOptions {
   // regardless of the budget, because there would be no result without them:
   //   - the deterministic measurements,
   //   - the first blocks of each configuration, up to the first evaluation of its times,
-  //   - least_process_runs fresh process runs, which confirm that a configuration is slower or
+  //   - min_process_runs fresh process runs, which confirm that a configuration is slower or
   //     faster. Part of the budget is reserved for these process runs.
   std::optional<std::chrono::seconds> budget;
   std::chrono::seconds limit{60};
@@ -44,7 +44,7 @@ struct ComparisonOptions {
 using SideTime = record::Summary;
 
 // The results of comparing one configuration.
-struct Compared {
+struct ComparedConfiguration {
   std::string key;
   measure::Configuration configuration;
   // The outcome of the side that did not finish. `skipped` means that this side does not support
@@ -57,14 +57,14 @@ struct Compared {
   int process_runs = 0;  // number of fresh process runs measured for the confirmation
   int frames_per_batch = 1;
   measure::SideClock clock = measure::SideClock::wall;
-  WallClockCause why_wall = WallClockCause::none;
+  WallClockCause wall_clock_cause = WallClockCause::none;
   double seconds = 0;                                 // time spent on this configuration
   std::optional<std::array<SideTime, 2>> times = {};  // frame times of a and b, in ns
   std::optional<judge::WorkChange> work;
   std::vector<Difference> differences;
 
   [[nodiscard]] bool is_regression() const;
-  [[nodiscard]] bool is_doubtful(bool timed) const;
+  [[nodiscard]] bool is_inconclusive(bool timed) const;
   // Returns the verdict on the time of this configuration: "slower", …, "skipped" or "undecided".
   [[nodiscard]] std::string_view verdict_name() const;
   // Returns whether `shift` was measured.
@@ -75,8 +75,8 @@ struct ComparisonResult {
   record::Device a;
   record::Device b;
   bool timed = false;
-  std::vector<Difference> device;        // differences between the devices, such as in their limits
-  std::vector<Compared> configurations;  // in the plan's order
+  std::vector<Difference> device;  // differences between the devices, such as in their limits
+  std::vector<ComparedConfiguration> configurations;  // in the plan's order
   double seconds = 0;
 
   [[nodiscard]] core::ExitCode exit_code() const;
@@ -102,13 +102,13 @@ struct ComparisonProgress {
   std::optional<measure::Loading> loading;
 };
 
-using Tell = std::function<void(const ComparisonProgress&)>;
+using OnProgress = std::function<void(const ComparisonProgress&)>;
 
 // Compares the sides, and writes the runs of both sides to the store. Throws the same exceptions as
 // measure::run_sides() and measure::Interleaved. Throws record::NotMeasured if the device of a side
 // cannot be opened.
 [[nodiscard]] ComparisonResult compare(const ComparisonOptions& options,
                                        const measure::Suite& suite, record::Store& store,
-                                       measure::Truths& truths, const Tell& tell);
+                                       measure::Truths& truths, const OnProgress& on_progress);
 
 }  // namespace triptych::comparison

@@ -82,7 +82,7 @@ double size_of(double ratio) {
   return std::abs(std::log(ratio));
 }
 
-void add(const Located& located, DifferenceGroup& group) {
+void add(const LocatedDifference& located, DifferenceGroup& group) {
   const auto& [where, difference] = located;
   ++group.count;
   if (!difference.ratio) return;
@@ -119,10 +119,10 @@ std::string Difference::about() const {
                       : fmt::format("{} {}", name_of(subject), name);
 }
 
-std::vector<DifferenceGroup> grouped(const std::vector<Located>& differences) {
+std::vector<DifferenceGroup> grouped(const std::vector<LocatedDifference>& differences) {
   using Key = std::tuple<DifferenceKind, std::string, std::string>;  // kind, measurement, faults
   std::map<Key, DifferenceGroup> groups;
-  for (const Located& each : differences) {
+  for (const LocatedDifference& each : differences) {
     const Difference& difference = each.second;
     const Key key{difference.kind, difference.about(), difference.injected};
     const DifferenceGroup first{.difference = difference, .where = each.first, .ratios = {}};

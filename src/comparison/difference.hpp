@@ -105,9 +105,10 @@ struct DifferenceGroup {
 
 // A configuration, and a difference between its two records. The configuration is empty for a
 // difference between the devices.
-using Located = std::pair<std::string, Difference>;
+using LocatedDifference = std::pair<std::string, Difference>;
 // Groups the differences. The groups are sorted by kind (worst first) and then by measurement.
 // Injected faults form separate groups, so that nobody mistakes them for driver faults.
-[[nodiscard]] std::vector<DifferenceGroup> grouped(const std::vector<Located>& differences);
+[[nodiscard]] std::vector<DifferenceGroup> grouped(
+    const std::vector<LocatedDifference>& differences);
 
 }  // namespace triptych::comparison

@@ -21,13 +21,13 @@ using measure::Side;
 // The tolerated relative increase in the number of instructions per frame if both sides use the
 // same device, but with different driver versions or settings. It equals the tolerated increase in
 // time (SequentialDesign::standard()).
-constexpr double frame_across_setups = 0.01;
+constexpr double frame_cost_tolerance = 0.01;
 // Changes in the preparation cost (the instructions that are executed before the first frame) are
 // reported only if they exceed this relative limit, because that cost varies from run to run.
-constexpr double of_preparing = 0.05;
+constexpr double preparation_tolerance = 0.05;
 
 template <typename Map>
-std::set<std::string> names_in(const Map& a, const Map& b) {
+std::set<std::string> all_names(const Map& a, const Map& b) {
   std::set<std::string> names;
   for (const auto& [name, value] : a) names.insert(name);
   for (const auto& [name, value] : b) names.insert(name);
@@ -74,27 +74,28 @@ judge::Change change_of(const std::string& name, std::optional<std::uint64_t> a,
   return change;
 }
 
-class Finder {
+class DifferenceFinder {
  public:
-  Finder(const ComparedSide& a, const ComparedSide& b, bool same_setup)
+  DifferenceFinder(const ComparedSide& a, const ComparedSide& b, bool same_setup)
       : a_(a),
         b_(b),
         same_setup_(same_setup),
         same_driver_(a.device.statistics_key() == b.device.statistics_key()),
         same_device_(a.device.key() == b.device.key()),
         same_id_(a.device.id == b.device.id),
-        open_a_(a.record, a.open_counts),
-        open_b_(b.record, b.open_counts) {}
+        open_counts_a_(a.record, a.open_counts),
+        open_counts_b_(b.record, b.open_counts) {}
 
   Comparison find() && {
-    if (!both_measured()) return std::move(result_);
-    image();
-    cost();
-    code();
-    memory();
-    for (const std::string& name : names_in(a_.record.counters, b_.record.counters)) counter(name);
-    for (const std::string& name : names_in(a_.record.statistics, b_.record.statistics)) {
-      statistic(name);
+    if (!check_outcomes()) return std::move(result_);
+    compare_image();
+    compare_cost();
+    compare_code();
+    compare_memory();
+    for (const std::string& name : all_names(a_.record.counters, b_.record.counters))
+      compare_counter(name);
+    for (const std::string& name : all_names(a_.record.statistics, b_.record.statistics)) {
+      compare_statistic(name);
     }
     std::ranges::stable_sort(result_.differences, {}, &Difference::kind);
     return std::move(result_);
@@ -107,32 +108,32 @@ class Finder {
   }
 
   // Returns the outcome of a side, or nullopt if the side measured the configuration.
-  static std::optional<judge::Observation> end_of(const record::Record& record) {
+  static std::optional<judge::Observation> outcome_observation(const record::Record& record) {
     if (record.outcome == record::Outcome::measured) return std::nullopt;
     return judge::Observation{
         .cause = judge::Cause::ended, .outcome = record.outcome, .reason = record.reason};
   }
 
-  bool both_measured() {
+  bool check_outcomes() {
     using record::Outcome;
     const Outcome a = a_.record.outcome;
     const Outcome b = b_.record.outcome;
     if (a == Outcome::measured && b == Outcome::measured) return true;
-    const bool blames_b = b != Outcome::measured;
-    const record::Record& ended = blames_b ? b_.record : a_.record;
+    const bool b_failed = b != Outcome::measured;
+    const record::Record& ended = b_failed ? b_.record : a_.record;
     result_.no_time = {.cause = TimeCause::side_ended,
-                       .side = blames_b ? Side::b : Side::a,
+                       .side = b_failed ? Side::b : Side::a,
                        .outcome = ended.outcome,
                        .reason = ended.reason};
     // If neither side supports the configuration, there is no difference.
     if (a == b && a == Outcome::skipped) return false;
-    Difference& found = add(kind_of_end(a, b), Subject::outcome, Cause::ended);
-    if (!blames_b || found.kind == Kind::unjudged) found.sides[0] = end_of(a_.record);
-    found.sides[1] = end_of(b_.record);
+    Difference& found = add(outcome_kind(a, b), Subject::outcome, Cause::ended);
+    if (!b_failed || found.kind == Kind::unjudged) found.sides[0] = outcome_observation(a_.record);
+    found.sides[1] = outcome_observation(b_.record);
     return false;
   }
 
-  [[nodiscard]] Kind kind_of_end(record::Outcome a, record::Outcome b) const {
+  [[nodiscard]] Kind outcome_kind(record::Outcome a, record::Outcome b) const {
     using record::Outcome;
     if (b == Outcome::measured) {
       return a == Outcome::skipped && !same_id_ ? Kind::changed : Kind::fixed;
@@ -158,7 +159,7 @@ class Finder {
     return judge::Observation{.cause = judge::Cause::no_reference, .detail = side.no_truth};
   }
 
-  void image() {
+  void compare_image() {
     if (a_.record.image.empty() && b_.record.image.empty()) return;
     if (a_.truth == nullptr || b_.truth == nullptr) {
       add(Kind::unjudged, Subject::image, Cause::no_reference).sides = {no_reference(a_),
@@ -168,17 +169,17 @@ class Finder {
     const bool wrong_a = wrong[0].has_value();
     const bool wrong_b = wrong[1].has_value();
     if (!wrong_a && !wrong_b) {
-      if (a_.record.image != b_.record.image) other_bits();
+      if (a_.record.image != b_.record.image) add_bit_difference();
       return;
     }
     const bool cannot_judge = wrong_a && (wrong_b || b_.truth == nullptr);
-    const Kind of_one = wrong_b ? Kind::regression : Kind::fixed;
-    add(cannot_judge ? Kind::unjudged : of_one, Subject::image, Cause::wrong_image).sides =
-        std::move(wrong);
+    const Kind kind_if_one_wrong = wrong_b ? Kind::regression : Kind::fixed;
+    add(cannot_judge ? Kind::unjudged : kind_if_one_wrong, Subject::image, Cause::wrong_image)
+        .sides = std::move(wrong);
     result_.no_time = {.cause = TimeCause::wrong_image, .side = wrong_b ? Side::b : Side::a};
   }
 
-  void other_bits() {
+  void add_bit_difference() {
     const bool same_code = a_.record.kernel_hash == b_.record.kernel_hash &&
                            a_.device.key() == b_.device.key() && same_setup_;
     add(same_code ? Kind::regression : Kind::changed, Subject::image,
@@ -190,8 +191,8 @@ class Finder {
   // device key (driver version and settings), the counts of device code and driver must each stay
   // within a small tolerance, even if the sides run different builds of Triptych. If only their
   // device ids are equal, only the sum of these counts is limited: it may grow by
-  // frame_across_setups.
-  void cost() {
+  // frame_cost_tolerance.
+  void compare_cost() {
     const record::Counts& before = a_.record.cost;
     const record::Counts& now = b_.record.cost;
     if (before.empty() || now.empty()) return;
@@ -203,20 +204,21 @@ class Finder {
     judge::FrameChange change = judge::frame_change(b_.record, before);
     const double frame = judge::frame_instructions(before);
     const double ratio = frame > 0 ? judge::frame_instructions(now) / frame : 1;
-    const bool more = same_device_ ? change.increased : same_id_ && ratio > 1 + frame_across_setups;
+    const bool more =
+        same_device_ ? change.increased : same_id_ && ratio > 1 + frame_cost_tolerance;
     if (!change.changes.empty()) {
       Difference& found =
           add(more ? Kind::regression : Kind::changed, Subject::cost, Cause::values_changed);
       found.changes = std::move(change.changes);
       found.ratio = ratio;
     }
-    preparing();
+    compare_preparation_cost();
   }
 
-  void preparing() {
+  void compare_preparation_cost() {
     const double before = judge::frame_instructions(a_.record.prepare_cost);
     const double now = judge::frame_instructions(b_.record.prepare_cost);
-    if (before <= 0 || std::abs(now / before - 1) <= of_preparing) return;
+    if (before <= 0 || std::abs(now / before - 1) <= preparation_tolerance) return;
     Difference& found = add(Kind::changed, Subject::preparing, Cause::values_changed);
     found.changes = {
         {.name = "driver", .unit = judge::Unit::instructions, .before = before, .now = now}};
@@ -225,7 +227,7 @@ class Finder {
 
   // Compares the reports of the compilers. If both sides have the same device id, worse code is a
   // regression, even across driver versions. For two different devices, the code may differ.
-  void code() {
+  void compare_code() {
     if (a_.record.code.empty() || b_.record.code.empty()) return;
     judge::CodeComparison comparison = judge::compare_code(a_.record.code, b_.record.code);
     if (comparison.changes.empty() && comparison.removed.empty() && comparison.added.empty())
@@ -235,29 +237,29 @@ class Finder {
         .code = std::move(comparison);
   }
 
-  void memory() {
-    double all_a = 0;
-    double all_b = 0;
+  void compare_memory() {
+    double total_a = 0;
+    double total_b = 0;
     bool more = false;
     std::vector<judge::Change> changes;
-    for (const std::string& kind : names_in(a_.record.memory, b_.record.memory)) {
+    for (const std::string& kind : all_names(a_.record.memory, b_.record.memory)) {
       const double before = judge::count_of(a_.record.memory, kind).value_or(0);
       const double now = judge::count_of(b_.record.memory, kind).value_or(0);
-      all_a += before;
-      all_b += now;
+      total_a += before;
+      total_b += now;
       more = more || now > before;
       if (now == before) continue;
       changes.push_back({.name = kind, .unit = judge::Unit::bytes, .before = before, .now = now});
     }
-    if (changes.empty() || all_a == 0 || all_b == 0) return;
+    if (changes.empty() || total_a == 0 || total_b == 0) return;
     Difference& found = add(more && same_id_ ? Kind::regression : Kind::changed, Subject::memory,
                             Cause::values_changed);
     found.changes = std::move(changes);
-    found.ratio = all_b / all_a;
+    found.ratio = total_b / total_a;
   }
 
   // Adds a counter or statistic that only one side reports.
-  void add_of_one_side(Subject subject, const judge::Change& change) {
+  void add_one_sided(Subject subject, const judge::Change& change) {
     const bool lost = !change.now && same_driver_;
     Difference& found =
         add(lost ? Kind::regression : Kind::changed, subject, Cause::reported_by_one_side);
@@ -274,16 +276,17 @@ class Finder {
     return found;
   }
 
-  void counter(const std::string& name) {
+  void compare_counter(const std::string& name) {
     const auto a = value_in(a_.record.counters, name);
     const auto b = value_in(b_.record.counters, name);
     if (a == b) return;
     const judge::Change change = change_of(name, a, b);
-    if (!a || !b) return add_of_one_side(Subject::counter, change);
+    if (!a || !b) return add_one_sided(Subject::counter, change);
     const double reference = std::max({1.0, *change.before, *change.now});
     const double difference = std::abs(*change.now - *change.before);
     const bool open = difference <= judge::counters_across_devices * reference ||
-                      difference <= open_a_.of(name) || difference <= open_b_.of(name);
+                      difference <= open_counts_a_.of(name) ||
+                      difference <= open_counts_b_.of(name);
     if (same_driver_) {
       add_change(Kind::regression, Subject::counter, Cause::same_driver, change);
     } else if (a_.device.api != b_.device.api && judge::depends_on_api(name)) {
@@ -295,12 +298,12 @@ class Finder {
     }
   }
 
-  void statistic(const std::string& name) {
+  void compare_statistic(const std::string& name) {
     const auto a = value_in(a_.record.statistics, name);
     const auto b = value_in(b_.record.statistics, name);
     if (a == b) return;
     const judge::Change change = change_of(name, a, b);
-    if (!a || !b) return add_of_one_side(Subject::statistic, change);
+    if (!a || !b) return add_one_sided(Subject::statistic, change);
     const auto on_a = judge::worth_of(a_.device.statistics_calibration, name);
     const auto on_b = judge::worth_of(b_.device.statistics_calibration, name);
     const bool unsteady = on_a.is_unsteady() || on_b.is_unsteady();
@@ -324,8 +327,8 @@ class Finder {
   bool same_driver_;
   bool same_device_;
   bool same_id_;
-  judge::OpenCounts open_a_;
-  judge::OpenCounts open_b_;
+  judge::OpenCounts open_counts_a_;
+  judge::OpenCounts open_counts_b_;
   Comparison result_;
 };
 
@@ -335,7 +338,7 @@ std::vector<Difference> find_differences(const record::Device& a, const record::
   std::vector<Difference> differences;
   if (a.id != b.id) return differences;
   const auto changed = [](const auto& of_a, const auto& of_b, const auto& add) {
-    for (const std::string& name : names_in(of_a, of_b)) {
+    for (const std::string& name : all_names(of_a, of_b)) {
       const auto before = of_a.find(name);
       const auto now = of_b.find(name);
       const auto* const value_a = before == of_a.end() ? nullptr : &before->second;
@@ -368,7 +371,7 @@ std::vector<Difference> find_differences(const record::Device& a, const record::
 }
 
 Comparison find_differences(const ComparedSide& a, const ComparedSide& b, bool same_setup) {
-  return Finder(a, b, same_setup).find();
+  return DifferenceFinder(a, b, same_setup).find();
 }
 
 }  // namespace triptych::comparison

@@ -13,11 +13,12 @@
 namespace triptych::comparison {
 namespace {
 
-std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& store) {
-  std::map<std::string, MeasuredByConfiguration> devices;
+std::map<std::string, MeasurementsByConfiguration> measurements_by_device(
+    const record::Store& store) {
+  std::map<std::string, MeasurementsByConfiguration> devices;
   for (const record::Run& run : record::latest_runs(store)) {
     store.visit_records(run.id, [&](const record::Record& record) {
-      Measured& here = devices[record.device][run.plan + " " + record.configuration];
+      Measurement& here = devices[record.device][run.plan + " " + record.configuration];
       here.injected = record.injected;
       if (record.outcome != record::Outcome::measured) return;
       const auto time = record::summarise(
@@ -31,7 +32,7 @@ std::map<std::string, MeasuredByConfiguration> by_device(const record::Store& st
 
 // Returns the shortest suffix of the store's path that is unique among the stores: the file name,
 // preceded by as many folders as necessary.
-std::string name_among(const std::string& store, const std::set<std::string>& stores) {
+std::string shortest_unique_suffix(const std::string& store, const std::set<std::string>& stores) {
   std::filesystem::path name;
   const std::filesystem::path path(store);
   for (auto part = path.end(); part != path.begin();) {
@@ -53,7 +54,7 @@ const HistoryPoint* DeviceHistory::first_worse() const {
   return found == points.end() ? nullptr : &*found;
 }
 
-std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores) {
+std::vector<record::Store*> sorted_by_time(const std::vector<record::Store*>& stores) {
   using Begun = std::pair<std::string, record::Store*>;
   std::vector<Begun> begun;
   for (record::Store* store : stores) {
@@ -66,7 +67,7 @@ std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores) 
   return sorted;
 }
 
-DeviceHistory& HistoryBuilder::of(const std::string& device) {
+DeviceHistory& HistoryBuilder::history_of(const std::string& device) {
   const auto found = std::ranges::find(history_, device, &DeviceHistory::device);
   if (found != history_.end()) return *found;
   history_.push_back({.device = device, .points = {}});
@@ -91,32 +92,33 @@ HistoryBuilder::Points HistoryBuilder::points_of(const record::Store& store) con
   return points;
 }
 
-const record::Store* HistoryBuilder::Known::before(const std::string& configuration) const {
-  const auto found = holder.find(configuration);
-  return found == holder.end() ? last : found->second;
+const record::Store* HistoryBuilder::DeviceState::previous_store(
+    const std::string& configuration) const {
+  const auto found = latest_with.find(configuration);
+  return found == latest_with.end() ? last : found->second;
 }
 
 void HistoryBuilder::add_changes(const record::Store& store,
-                                 const std::map<std::string, MeasuredByConfiguration>& measured,
+                                 const std::map<std::string, MeasurementsByConfiguration>& measured,
                                  measure::Truths& truths, Points& points) const {
-  std::map<const record::Store*, std::set<std::string>> devices_since;
+  std::map<const record::Store*, std::set<std::string>> devices_by_previous_store;
   for (const auto& [id, point] : points) {
     const auto known = known_.find(id);
     if (known == known_.end()) continue;
-    devices_since[known->second.last].insert(id);
+    devices_by_previous_store[known->second.last].insert(id);
     const auto here = measured.find(id);
     if (here == measured.end()) continue;
     for (const auto& [configuration, amounts] : here->second) {
-      devices_since[known->second.before(configuration)].insert(id);
+      devices_by_previous_store[known->second.previous_store(configuration)].insert(id);
     }
   }
   std::map<std::string, DeviceChange> changes;
-  for (const auto& [before, devices] : devices_since) {
+  for (const auto& [before, devices] : devices_by_previous_store) {
     for (DeviceChange& change :
          diff_stores(*before, store, {devices.begin(), devices.end()}, truths).devices) {
-      const Known& known = known_.at(change.b.id);
+      const DeviceState& known = known_.at(change.b.id);
       std::erase_if(change.configurations, [&, before = before](const ConfigurationDiff& each) {
-        return known.before(each.key) != before;
+        return known.previous_store(each.key) != before;
       });
       DeviceChange& all = changes[change.b.id];
       if (before == known.last) all.device = std::move(change.device);
@@ -133,14 +135,15 @@ void HistoryBuilder::add_changes(const record::Store& store,
 // first store, and updates `chain`, which contains the most recent value of each configuration.
 // Returns nullopt if this store has no values, or if none of its configurations has a value in an
 // earlier store.
-std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfiguration& here,
-                                             std::optional<double> Measured::*value) {
+std::optional<double> HistoryBuilder::extend_chain(Chain& chain,
+                                                   const MeasurementsByConfiguration& here,
+                                                   std::optional<double> Measurement::*value) {
   double sum = 0;
   int count = 0;
   for (const auto& [configuration, amounts] : here) {
     const auto before = chain.find(configuration);
     if (!(amounts.*value) || before == chain.end()) continue;
-    sum += std::log(*(amounts.*value) / before->second.amount * before->second.value);
+    sum += std::log(*(amounts.*value) / before->second.measured * before->second.index);
     ++count;
   }
   if (count == 0 && !chain.empty()) return std::nullopt;
@@ -152,21 +155,21 @@ std::optional<double> HistoryBuilder::extend(Chain& chain, const MeasuredByConfi
 }
 
 void HistoryBuilder::add(const record::Store& store, measure::Truths& truths) {
-  const auto measured = by_device(store);
+  const auto measured = measurements_by_device(store);
   Points points = points_of(store);
   add_changes(store, measured, truths, points);
   for (auto& [id, point] : points) {
-    Known& known = known_[id];
+    DeviceState& known = known_[id];
     known.last = &store;
     if (const auto here = measured.find(id); here != measured.end()) {
-      point.cost = extend(known.cost, here->second, &Measured::cost);
-      point.time = extend(known.time, here->second, &Measured::time);
+      point.cost = extend_chain(known.cost, here->second, &Measurement::cost);
+      point.time = extend_chain(known.time, here->second, &Measurement::time);
       for (const auto& [configuration, amounts] : here->second) {
-        known.holder[configuration] = &store;
+        known.latest_with[configuration] = &store;
         if (!amounts.injected.empty()) point.injected.insert(amounts.injected);
       }
     }
-    of(id).points.push_back(std::move(point));
+    history_of(id).points.push_back(std::move(point));
   }
 }
 
@@ -176,7 +179,7 @@ std::map<std::string, std::string> names_of(const std::vector<DeviceHistory>& hi
     for (const HistoryPoint& point : device.points) stores.insert(point.store);
   }
   std::map<std::string, std::string> names;
-  for (const std::string& store : stores) names[store] = name_among(store, stores);
+  for (const std::string& store : stores) names[store] = shortest_unique_suffix(store, stores);
   return names;
 }
 

@@ -43,16 +43,17 @@ struct DeviceHistory {
 
 // The results of a configuration on a device. Cost and time are set only if the configuration was
 // measured.
-struct Measured {
+struct Measurement {
   std::optional<double> cost;
   std::optional<double> time;
   std::string injected;  // see record::Record::injected
 };
-using MeasuredByConfiguration = std::map<std::string, Measured>;  // by plan and configuration
+// The keys are "PLAN CONFIGURATION".
+using MeasurementsByConfiguration = std::map<std::string, Measurement>;
 
 // Sorts the stores by the start time of their first run. Stores with equal start times keep the
 // given order.
-[[nodiscard]] std::vector<record::Store*> in_order(const std::vector<record::Store*>& stores);
+[[nodiscard]] std::vector<record::Store*> sorted_by_time(const std::vector<record::Store*>& stores);
 
 // Builds the histories of all devices that match one of the globs `devices`. If there are no globs,
 // builds the histories of all devices. Throws the same exceptions as record::Store.
@@ -69,32 +70,33 @@ class HistoryBuilder {
   using Points = std::map<std::string, HistoryPoint>;  // by device
   // The most recent cost or time of a configuration.
   struct Link {
-    double amount;  // the cost or time as measured
-    double value;   // the chained index (HistoryPoint::cost or ::time) of the store it comes from
+    double measured;  // the cost or time as measured
+    double index;     // the chained index (HistoryPoint::cost or ::time) of the store it comes from
   };
   using Chain = std::map<std::string, Link>;
-  struct Known {  // what is known about a device so far
+  struct DeviceState {  // what is known about a device so far
     Chain cost;
     Chain time;
-    const record::Store* last = nullptr;                 // the latest store with the device
-    std::map<std::string, const record::Store*> holder;  // the latest store with each configuration
+    const record::Store* last = nullptr;  // the latest store with the device
+    // The latest store with each configuration.
+    std::map<std::string, const record::Store*> latest_with;
 
     // Returns the store with which a configuration is compared: the latest store that contains the
     // configuration or, if there is none, the latest store that contains the device.
-    [[nodiscard]] const record::Store* before(const std::string& configuration) const;
+    [[nodiscard]] const record::Store* previous_store(const std::string& configuration) const;
   };
   [[nodiscard]] Points points_of(const record::Store& store) const;
-  DeviceHistory& of(const std::string& device);
+  DeviceHistory& history_of(const std::string& device);
 
-  static std::optional<double> extend(Chain& chain, const MeasuredByConfiguration& here,
-                                      std::optional<double> Measured::*value);
+  static std::optional<double> extend_chain(Chain& chain, const MeasurementsByConfiguration& here,
+                                            std::optional<double> Measurement::*value);
   void add_changes(const record::Store& store,
-                   const std::map<std::string, MeasuredByConfiguration>& measured,
+                   const std::map<std::string, MeasurementsByConfiguration>& measured,
                    measure::Truths& truths, Points& points) const;
 
   std::vector<std::string> devices_;
   std::vector<DeviceHistory> history_;
-  std::map<std::string, Known> known_;  // by device
+  std::map<std::string, DeviceState> known_;  // by device
 };
 
 // Returns, for each store, the shortest suffix of its path that distinguishes it from the other

@@ -69,7 +69,7 @@ double statistic_variance(double n, double ties) {
 // two differences). Returns k. For distinct differences, this is the largest k with P(V ≤ k − 1) ≤
 // tail, or 0 if there is no such k, where V is the signed-rank statistic of n differences.
 std::size_t averages_outside(std::size_t n, double tail) {
-  if (n > most_for_exact) {
+  if (n > max_exact_differences) {
     const auto count = static_cast<double>(n);
     const double k = std::floor(mean_statistic(count) + 0.5 -
                                 estimation::student_t_upper_quantile(tail, infinite) *
@@ -91,10 +91,10 @@ std::size_t averages_outside(std::size_t n, double tail) {
 // The smallest variance of ln(frame time) that is assumed between process runs (lifetimes of worker
 // processes): (10⁻⁶)². No clock resolves a millionth of the duration of a batch, so a smaller
 // variance would be an artefact of the timers.
-constexpr double least_variance = 1e-12;
+constexpr double min_variance = 1e-12;
 
 PairVerdict unconfirmed(const Interval& interval, const SequentialDesign& design) {
-  const bool same = interval.low > -design.caught && interval.high < design.caught;
+  const bool same = interval.low > -design.detectable && interval.high < design.detectable;
   return same ? PairVerdict::same : PairVerdict::undecided;
 }
 
@@ -110,7 +110,7 @@ SignedRank wilcoxon_signed_rank(std::span<const double> differences, double shif
   result.n = ranks.doubled.size();
   result.statistic = static_cast<double>(ranks.doubled_statistic) / 2;
   if (result.n == 0) return result;
-  if (result.n <= most_for_exact) {
+  if (result.n <= max_exact_differences) {
     const std::vector<double> share = null_distribution(ranks.doubled);
     result.p_less = result.p_greater = 0;
     for (std::size_t sum = 0; sum < share.size(); ++sum) {
@@ -160,7 +160,7 @@ std::string_view name_of(PairVerdict verdict) {
 }
 
 SequentialDesign SequentialDesign::standard() {
-  return {.tolerated = std::log(1.01), .caught = std::log(1.03)};
+  return {.tolerated = std::log(1.01), .detectable = std::log(1.03)};
 }
 
 int SequentialDesign::next_look(int blocks) const {
@@ -181,7 +181,7 @@ Look look_at(std::span<const double> differences, const SequentialDesign& design
     look.verdict = PairVerdict::slower;
   } else if (below(-design.tolerated)) {
     look.verdict = PairVerdict::faster;
-  } else if (below(design.caught) && above(-design.caught)) {
+  } else if (below(design.detectable) && above(-design.detectable)) {
     look.verdict = PairVerdict::same;
   }
   return look;
@@ -196,9 +196,9 @@ std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
   for (std::size_t i = 0; i < suspects.size(); ++i) {
     results[i].shift = {not_a_number, {-infinite, infinite}};
     const std::vector<double>& process_runs = suspects[i].process_runs;
-    if (process_runs.size() < least_process_runs) continue;
+    if (process_runs.size() < min_process_runs) continue;
     judged.push_back(i);
-    variances.push_back(std::max(estimation::sample_variance(process_runs), least_variance));
+    variances.push_back(std::max(estimation::sample_variance(process_runs), min_variance));
     degrees.push_back(static_cast<double>(process_runs.size() - 1));
   }
   const estimation::VariancePrior prior = estimation::fit_variance_prior(variances, degrees);
@@ -206,14 +206,14 @@ std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
   for (std::size_t k = 0; k < judged.size(); ++k) {
     const Suspect& suspect = suspects[judged[k]];
     Confirmation& result = results[judged[k]];
-    const double freedom = prior.degrees + degrees[k];
+    const double degrees_of_freedom = prior.degrees + degrees[k];
     const double error = std::sqrt(estimation::moderated_variance(prior, variances[k], degrees[k]) /
                                    static_cast<double>(suspect.process_runs.size()));
     const double centre = estimation::mean(suspect.process_runs);
-    const double reach = estimation::student_t_upper_quantile(q, freedom) * error;
+    const double half_width = estimation::student_t_upper_quantile(q, degrees_of_freedom) * error;
     const double beyond = (suspect.slower ? centre : -centre) - design.tolerated;
-    result.shift = {centre, {centre - reach, centre + reach}};
-    result.p = estimation::student_t_upper_tail(beyond / error, freedom);
+    result.shift = {centre, {centre - half_width, centre + half_width}};
+    result.p = estimation::student_t_upper_tail(beyond / error, degrees_of_freedom);
     p_values.push_back(result.p);
   }
   const std::vector<bool> rejected = estimation::benjamini_hochberg(p_values, q);
@@ -229,7 +229,7 @@ std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
 std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,
                                            const ConfirmationDesign& confirmation,
                                            const SequentialDesign& design,
-                                           const RunAgain& run_again) {
+                                           const MeasureProcessRun& run_again) {
   std::vector<Confirmation> results(suspects.size());
   std::vector<std::size_t> open(suspects.size());
   std::iota(open.begin(), open.end(), std::size_t{0});

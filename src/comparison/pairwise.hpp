@@ -24,7 +24,7 @@ struct SignedRank {
 };
 // Up to this number of differences, the test is exact (conditional on the ties). Beyond it, the
 // normal approximation is used, with corrections for ties and continuity.
-inline constexpr std::size_t most_for_exact = 25;
+inline constexpr std::size_t max_exact_differences = 25;
 [[nodiscard]] SignedRank wilcoxon_signed_rank(std::span<const double> differences,
                                               double shift = 0);
 
@@ -58,8 +58,8 @@ enum class PairVerdict : std::uint8_t {
 struct SequentialDesign {
   std::array<int, 6> looks{12, 24, 48, 96, 192, 384};
   double alpha = 0.01;
-  double tolerated = 0;  // τ₀: a shift up to this size is tolerated
-  double caught = 0;     // τ₁: a shift of at least this size must be found
+  double tolerated = 0;   // τ₀: a shift up to this size is tolerated
+  double detectable = 0;  // τ₁: a shift of at least this size must be found
 
   // Returns the design with τ₀ = ln 1.01 and τ₁ = ln 1.03.
   [[nodiscard]] static SequentialDesign standard();
@@ -88,7 +88,7 @@ struct Suspect {
   std::vector<double> process_runs;  // the estimated shift of each fresh process run
   bool slower = true;                // result of the first process run; false: faster
 };
-inline constexpr std::size_t least_process_runs = 2;  // with fewer runs, their scatter is unknown
+inline constexpr std::size_t min_process_runs = 2;  // with fewer runs, their scatter is unknown
 
 // The design of the confirmation, which consists of two looks. Only suspects that the first look
 // leaves undecided are evaluated at the second look. Each look is allotted an equal share of `q`.
@@ -117,7 +117,7 @@ struct Confirmation {
 // slower or faster.
 //
 // A suspect that is not confirmed gets the verdict `same` if its interval proves it, and
-// `undecided` otherwise. A suspect with fewer than least_process_runs process runs is undecided.
+// `undecided` otherwise. A suspect with fewer than min_process_runs process runs is undecided.
 [[nodiscard]] std::vector<Confirmation> confirm(std::span<const Suspect> suspects, double q,
                                                 const SequentialDesign& design);
 
@@ -125,11 +125,11 @@ struct Confirmation {
 // Suspects about which a look has decided are no longer in `open`. `number` is the number of this
 // process run (1, 2, …), and the next look takes place after the process run with the number
 // `until`. The function returns false if no more process runs are possible.
-using RunAgain =
+using MeasureProcessRun =
     std::function<bool(std::span<const std::size_t> open, std::size_t number, std::size_t until)>;
 [[nodiscard]] std::vector<Confirmation> confirm_in_looks(std::vector<Suspect>& suspects,
                                                          const ConfirmationDesign& confirmation,
                                                          const SequentialDesign& design,
-                                                         const RunAgain& run_again);
+                                                         const MeasureProcessRun& run_again);
 
 }  // namespace triptych::comparison

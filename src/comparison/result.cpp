@@ -5,25 +5,25 @@
 namespace triptych::comparison {
 namespace {
 
-bool has(const Compared& compared, DifferenceKind kind) {
+bool has(const ComparedConfiguration& compared, DifferenceKind kind) {
   return std::ranges::any_of(compared.differences,
                              [kind](const auto& each) { return each.kind == kind; });
 }
 
 }  // namespace
 
-bool Compared::is_regression() const {
+bool ComparedConfiguration::is_regression() const {
   return (!ended && verdict == PairVerdict::slower) || has(*this, DifferenceKind::regression);
 }
 
-bool Compared::is_doubtful(bool timed) const {
+bool ComparedConfiguration::is_inconclusive(bool timed) const {
   if (has(*this, DifferenceKind::unjudged)) return true;
   if (has(*this, DifferenceKind::fixed)) return false;
   if (ended) return *ended != record::Outcome::skipped;
   return timed && verdict == PairVerdict::undecided;
 }
 
-std::string_view Compared::verdict_name() const {
+std::string_view ComparedConfiguration::verdict_name() const {
   if (ended)
     return *ended == record::Outcome::skipped ? "skipped" : name_of(PairVerdict::undecided);
   return name_of(verdict);
@@ -31,18 +31,19 @@ std::string_view Compared::verdict_name() const {
 
 core::ExitCode ComparisonResult::exit_code() const {
   const auto any = [this](const auto& is) { return std::ranges::any_of(configurations, is); };
-  if (any([](const Compared& each) { return each.is_regression(); })) {
+  if (any([](const ComparedConfiguration& each) { return each.is_regression(); })) {
     return core::ExitCode::regression;
   }
-  const bool looked = any([](const Compared& each) { return !each.ended; });
-  const bool doubtful = any([this](const Compared& each) { return each.is_doubtful(timed); });
-  return looked && !doubtful ? core::ExitCode::pass : core::ExitCode::cannot_judge;
+  const bool any_measured = any([](const ComparedConfiguration& each) { return !each.ended; });
+  const bool inconclusive =
+      any([this](const ComparedConfiguration& each) { return each.is_inconclusive(timed); });
+  return any_measured && !inconclusive ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
 std::vector<DifferenceGroup> ComparisonResult::groups() const {
-  std::vector<Located> all;
+  std::vector<LocatedDifference> all;
   for (const Difference& each : device) all.emplace_back("", each);
-  for (const Compared& compared : configurations) {
+  for (const ComparedConfiguration& compared : configurations) {
     for (const Difference& each : compared.differences) all.emplace_back(compared.key, each);
   }
   return grouped(all);

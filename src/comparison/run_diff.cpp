@@ -8,8 +8,8 @@
 namespace triptych::comparison {
 namespace {
 
-void name_injected(const record::Record& a, const record::Record& b,
-                   std::vector<Difference>& differences) {
+void set_injected(const record::Record& a, const record::Record& b,
+                  std::vector<Difference>& differences) {
   const std::string& injected = b.injected.empty() ? a.injected : b.injected;
   for (Difference& each : differences) each.injected = injected;
 }
@@ -25,12 +25,12 @@ void add_totals(const judge::CodeTotals& totals, std::vector<Difference>& differ
   }
 }
 
-class Differ {
+class RunComparer {
  public:
-  Differ(const RunSide& a, const RunSide& b, measure::Truths& truths, bool same_setup)
+  RunComparer(const RunSide& a, const RunSide& b, measure::Truths& truths, bool same_setup)
       : a_(a), b_(b), truths_(truths), same_setup_(same_setup) {}
 
-  [[nodiscard]] ConfigurationDiff both(const record::Record& a, const record::Record& b) const {
+  [[nodiscard]] ConfigurationDiff compare(const record::Record& a, const record::Record& b) const {
     const core::Image image_a = image_of(a_, a);
     const core::Image image_b = image_of(b_, b);
     const judge::FindOpenCounts open_counts = [this](const record::Record& record) {
@@ -38,10 +38,10 @@ class Differ {
     };
     ComparedSide side_a{a, a_.device, image_a, nullptr, {}, open_counts};
     ComparedSide side_b{b, b_.device, image_b, nullptr, {}, open_counts};
-    find_truth(side_a);
-    find_truth(side_b);
+    add_reference(side_a);
+    add_reference(side_b);
     Comparison found = find_differences(side_a, side_b, same_setup_);
-    name_injected(a, b, found.differences);
+    set_injected(a, b, found.differences);
     return {.key = a.configuration,
             .differences = std::move(found.differences),
             .no_time = std::move(found.no_time),
@@ -50,7 +50,7 @@ class Differ {
             .device_clock_trusted = {a.device_clock_trusted, b.device_clock_trusted}};
   }
 
-  static ConfigurationDiff one(measure::Side side, const record::Record& record) {
+  static ConfigurationDiff one_sided(measure::Side side, const record::Record& record) {
     return {.key = record.configuration,
             .differences = {{.kind = DifferenceKind::unjudged,
                              .subject = Subject::outcome,
@@ -74,7 +74,7 @@ class Differ {
     return std::nullopt;
   }
 
-  void find_truth(ComparedSide& side) const {
+  void add_reference(ComparedSide& side) const {
     if (side.record.image.empty()) return;
     try {
       side.truth = &truths_.of(side.record);
@@ -98,7 +98,7 @@ std::vector<record::Record> records_of(const RunSide& side) {
 }  // namespace
 
 RunDiff diff_runs(const RunSide& a, const RunSide& b, measure::Truths& truths, bool same_setup) {
-  const Differ differ(a, b, truths, same_setup);
+  const RunComparer comparer(a, b, truths, same_setup);
   RunDiff diff{.device = find_differences(a.device, b.device), .configurations = {}};
   std::map<std::string, record::Record> of_b;
   for (record::Record& record : records_of(b)) {
@@ -109,11 +109,11 @@ RunDiff diff_runs(const RunSide& a, const RunSide& b, measure::Truths& truths, b
   for (const record::Record& record : records_of(a)) {
     const auto found = of_b.extract(record.configuration);
     if (found) totals.add(record.configuration, record.code, found.mapped().code);
-    diff.configurations.push_back(found ? differ.both(record, found.mapped())
-                                        : Differ::one(measure::Side::a, record));
+    diff.configurations.push_back(found ? comparer.compare(record, found.mapped())
+                                        : RunComparer::one_sided(measure::Side::a, record));
   }
   for (const auto& [key, record] : of_b) {
-    diff.configurations.push_back(Differ::one(measure::Side::b, record));
+    diff.configurations.push_back(RunComparer::one_sided(measure::Side::b, record));
   }
   add_totals(totals, diff.device);
   return diff;

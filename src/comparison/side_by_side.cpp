@@ -15,27 +15,27 @@ using Value = double (*)(const record::Record&);  // returns 0 if the record has
 using ByDevice = std::map<std::string, const record::Record*>;
 
 // Counters that describe the work of a frame and have the same definition in all APIs.
-constexpr std::array<const char*, 3> telling_work{"samples", "fragments", "primitives"};
+constexpr std::array<const char*, 3> work_counters{"samples", "fragments", "primitives"};
 
 double instructions_of(const record::Record& record) {
   return judge::frame_instructions(record.cost);
 }
 
-double time_by(const record::Record& record, std::string_view clock) {
+double median_time(const record::Record& record, std::string_view clock) {
   const auto summary = record::summarise(record.time_ns_by(clock));
   return summary ? summary->median : 0;
 }
 double device_time_of(const record::Record& record) {
-  return time_by(record, "device");
+  return median_time(record, "device");
 }
 double wall_time_of(const record::Record& record) {
-  return time_by(record, "wall");
+  return median_time(record, "wall");
 }
 
 // Returns, for each technique, the configurations that were measured on at least two devices. Each
 // configuration is a map from the devices to their records.
-std::map<std::string, std::vector<ByDevice>> measured_by(std::span<const record::Record> records,
-                                                         Value value) {
+std::map<std::string, std::vector<ByDevice>> configurations_by_technique(
+    std::span<const record::Record> records, Value value) {
   std::map<std::string, ByDevice> by_configuration;
   for (const record::Record& record : records) {
     if (record.outcome != record::Outcome::measured || !(value(record) > 0)) continue;
@@ -70,7 +70,7 @@ SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>
              })->first;
   for (auto& [device, cell] : row.cells) {
     cell.ratio = cell.value / row.cells.at(row.best).value;
-    for (const char* name : telling_work) {
+    for (const char* name : work_counters) {
       const auto count = [name](const record::Record& record) {
         return judge::count_of(record.counters, name).value_or(0);
       };
@@ -84,7 +84,7 @@ SideBySide::Row row_of(const std::string& technique, const std::vector<ByDevice>
 
 // Returns whether all times were measured by device clocks. Times from different clocks are never
 // compared.
-bool all_by_device_clock(std::span<const record::Record> records) {
+bool all_times_from_device_clock(std::span<const record::Record> records) {
   return std::ranges::all_of(records, [](const record::Record& each) {
     return each.time_ns().empty() || each.clock() == "device";
   });
@@ -93,7 +93,7 @@ bool all_by_device_clock(std::span<const record::Record> records) {
 SideBySide table_of(std::span<const record::Record> records, std::string unit, Value value) {
   SideBySide table{.unit = std::move(unit), .clock = {}, .devices = {}, .rows = {}};
   std::set<std::string> all;
-  for (auto& [technique, configurations] : measured_by(records, value)) {
+  for (auto& [technique, configurations] : configurations_by_technique(records, value)) {
     std::set<std::string> devices;
     for (const ByDevice& each : configurations) {
       for (const auto& [device, record] : each) devices.insert(device);
@@ -113,9 +113,9 @@ SideBySide table_of(std::span<const record::Record> records, std::string unit, V
 std::optional<SideBySide> side_by_side(std::span<const record::Record> records) {
   SideBySide table = table_of(records, "instructions", instructions_of);
   if (table.devices.empty()) {
-    const bool by_device = all_by_device_clock(records);
-    table = table_of(records, "ns", by_device ? device_time_of : wall_time_of);
-    table.clock = by_device ? "device" : "wall";
+    const bool use_device_clock = all_times_from_device_clock(records);
+    table = table_of(records, "ns", use_device_clock ? device_time_of : wall_time_of);
+    table.clock = use_device_clock ? "device" : "wall";
   }
   if (table.rows.empty()) return std::nullopt;
   return table;

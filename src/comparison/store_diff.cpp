@@ -27,15 +27,16 @@ std::map<std::string, record::Device> devices_of(const record::Store& store, con
   return devices;
 }
 
-// Adds an entry for each key that exists in only one of the two maps. `made_of` creates the entry
-// from the key and the side.
-template <typename Map, typename MadeOf>
-void add_only_one(const Map& a, const Map& b, const MadeOf& made_of, std::set<OnlyOne>& out) {
+// Adds an entry for each key that exists in only one of the two maps. `make_entry` creates the
+// entry from the key and the side.
+template <typename Map, typename MakeEntry>
+void add_one_sided(const Map& a, const Map& b, const MakeEntry& make_entry,
+                   std::set<OneSidedEntry>& out) {
   for (const auto& [name, value] : a) {
-    if (!b.contains(name)) out.insert(made_of(name, measure::Side::a));
+    if (!b.contains(name)) out.insert(make_entry(name, measure::Side::a));
   }
   for (const auto& [name, value] : b) {
-    if (!a.contains(name)) out.insert(made_of(name, measure::Side::b));
+    if (!a.contains(name)) out.insert(make_entry(name, measure::Side::b));
   }
 }
 
@@ -56,21 +57,21 @@ void add_new(const std::vector<Difference>& more, std::vector<Difference>& diffe
   }
 }
 
-class Diffing {
+class StoreComparer {
  public:
-  Diffing(const record::Store& a, const record::Store& b, const std::vector<std::string>& devices,
-          measure::Truths& truths)
+  StoreComparer(const record::Store& a, const record::Store& b,
+                const std::vector<std::string>& devices, measure::Truths& truths)
       : a_(a), b_(b), globs_(devices), truths_(truths) {}
 
   void add_plan(const std::string& plan, const std::string& run_a, const std::string& run_b) {
     const auto of_a = devices_of(a_, run_a, globs_);
     const auto of_b = devices_of(b_, run_b, globs_);
-    add_only_one(
+    add_one_sided(
         of_a, of_b,
         [&](const std::string& device, measure::Side side) {
-          return OnlyOne{plan, device, side};
+          return OneSidedEntry{plan, device, side};
         },
-        only_one_);
+        one_sided_);
     for (const auto& [id, device] : of_a) {
       const auto found = of_b.find(id);
       if (found == of_b.end()) continue;
@@ -83,12 +84,12 @@ class Diffing {
   void add_plans() {
     const auto of_a = latest_by_plan(a_);
     const auto of_b = latest_by_plan(b_);
-    add_only_one(
+    add_one_sided(
         of_a, of_b,
         [](const std::string& plan, measure::Side side) {
-          return OnlyOne{plan, {}, side};
+          return OneSidedEntry{plan, {}, side};
         },
-        only_one_);
+        one_sided_);
     for (const auto& [plan, run] : of_a) {
       if (const auto found = of_b.find(plan); found != of_b.end()) {
         add_plan(plan, run, found->second);
@@ -97,7 +98,7 @@ class Diffing {
   }
 
   [[nodiscard]] StoreDiff diff() && {
-    StoreDiff all{.devices = {}, .only_one = {only_one_.begin(), only_one_.end()}};
+    StoreDiff all{.devices = {}, .one_sided = {one_sided_.begin(), one_sided_.end()}};
     for (auto& [id, change] : changes_) all.devices.push_back(std::move(change));
     return all;
   }
@@ -127,13 +128,13 @@ class Diffing {
   const std::vector<std::string>& globs_;
   measure::Truths& truths_;
   std::map<std::string, DeviceChange> changes_;  // by device
-  std::set<OnlyOne> only_one_;
+  std::set<OneSidedEntry> one_sided_;
 };
 
 }  // namespace
 
 std::vector<DifferenceGroup> groups_of(const DeviceChange& change) {
-  std::vector<Located> all;
+  std::vector<LocatedDifference> all;
   for (const Difference& each : change.device) all.emplace_back("", each);
   for (const ConfigurationDiff& configuration : change.configurations) {
     for (const Difference& each : configuration.differences) {
@@ -162,15 +163,15 @@ core::ExitCode StoreDiff::exit_code() const {
   };
   if (any(DifferenceKind::regression)) return core::ExitCode::regression;
   const bool measured = std::ranges::any_of(devices, was_measured);
-  const bool all = measured && only_one.empty() && !any(DifferenceKind::unjudged);
+  const bool all = measured && one_sided.empty() && !any(DifferenceKind::unjudged);
   return all ? core::ExitCode::pass : core::ExitCode::cannot_judge;
 }
 
 StoreDiff diff_stores(const record::Store& a, const record::Store& b,
                       const std::vector<std::string>& devices, measure::Truths& truths) {
-  Diffing diffing(a, b, devices, truths);
-  diffing.add_plans();
-  return std::move(diffing).diff();
+  StoreComparer comparer(a, b, devices, truths);
+  comparer.add_plans();
+  return std::move(comparer).diff();
 }
 
 }  // namespace triptych::comparison

@@ -28,16 +28,16 @@ struct DeviceChange {
 [[nodiscard]] bool was_measured(const DeviceChange& change);
 
 // A plan, or a device in a plan, that exists in only one of the two stores.
-struct OnlyOne {
+struct OneSidedEntry {
   std::string plan;
   std::string device;  // empty if the whole plan is missing
   measure::Side side = measure::Side::a;
-  auto operator<=>(const OnlyOne&) const = default;
+  auto operator<=>(const OneSidedEntry&) const = default;
 };
 
 struct StoreDiff {
   std::vector<DeviceChange> devices;
-  std::vector<OnlyOne> only_one;
+  std::vector<OneSidedEntry> one_sided;
 
   // Returns `regression` if there is a regression. Otherwise, returns `cannot_judge` if the
   // stores have no measured configuration in common, if a plan or device exists in only one of the

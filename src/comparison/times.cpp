@@ -18,24 +18,24 @@ using measure::SideClock;
 // A configuration, and the data needed to measure more of its blocks (groups of interleaved
 // batches).
 struct Entry {
-  Compared& compared;
+  ComparedConfiguration& compared;
   std::array<std::vector<std::string>, 2> faults;
   std::vector<measure::Block> blocks;
 };
 
 class Timer {
  public:
-  Timer(const ComparisonOptions& options, const measure::Stopwatch& since, const Tell& tell,
-        std::vector<Compared>& compared)
+  Timer(const ComparisonOptions& options, const measure::Stopwatch& since,
+        const OnProgress& on_progress, std::vector<ComparedConfiguration>& compared)
       : options_(options),
-        tell_(tell),
-        since_begin_(since),
+        on_progress_(on_progress),
+        comparison_stopwatch_(since),
         interleaved_({.suite = options.plan.suite,
                       .kinds = measure::work_kinds(options.plan),
                       .limit = options.limit,
                       .seed = options.seed},
                      options.a, options.b) {
-    for (Compared& each : compared) {
+    for (ComparedConfiguration& each : compared) {
       if (!each.reason.empty()) continue;  // times would be meaningless
       entries_.push_back({each,
                           {std::vector<std::string>{},
@@ -46,7 +46,7 @@ class Timer {
 
   void run() {
     first_looks();
-    go_on_with_the_widest();
+    continue_with_widest();
     confirm_suspects();
     for (Entry& entry : entries_) conclude(entry);
   }
@@ -55,12 +55,12 @@ class Timer {
   // Calls `act` for a configuration, and adds the elapsed time to the configuration's total. If the
   // worker of a side dies, only the measurement of this configuration ends.
   template <typename Act>
-  void about(Entry& entry, const Act& act) {
+  void with_stopwatch(Entry& entry, const Act& act) {
     const measure::Stopwatch stopwatch;
     try {
       act();
     } catch (const measure::SideEnded& ended) {
-      held_ = nullptr;
+      loaded_ = nullptr;
       entry.compared.ended = ended.outcome();
       entry.compared.reason = {.cause = TimeCause::side_ended,
                                .side = ended.side(),
@@ -86,33 +86,34 @@ class Timer {
     const int total = static_cast<int>(entries_.size());
     const int first = options_.design.looks.front();
     for (Entry& entry : entries_) {
-      const double each_s = done > 0 ? since_start_.seconds() / done : 0;
-      show({.stage = ComparisonStage::first_look}, entry, done, total, each_s * (total - done));
-      about(entry, [&] {
-        draw_until(entry, first);
+      const double mean_s = done > 0 ? timing_stopwatch_.seconds() / done : 0;
+      report_progress({.stage = ComparisonStage::first_look}, entry, done, total,
+                      mean_s * (total - done));
+      with_stopwatch(entry, [&] {
+        measure_until(entry, first);
         judge_blocks(entry);
       });
       ++done;
     }
   }
 
-  measure::OnLoading loading_of(const Entry& entry) {
+  measure::OnLoading loading_callback(const Entry& entry) {
     return [this, &entry](const measure::Loading& loading) {
-      if (tell_) tell_({.configuration = entry.compared.key, .loading = loading});
+      if (on_progress_) on_progress_({.configuration = entry.compared.key, .loading = loading});
     };
   }
 
-  void hold(Entry& entry) {
-    if (held_ == &entry) return;
-    held_ = nullptr;
+  void load(Entry& entry) {
+    if (loaded_ == &entry) return;
+    loaded_ = nullptr;
     interleaved_.hold(entry.compared.configuration, entry.faults, entry.compared.clock,
-                      loading_of(entry));
+                      loading_callback(entry));
     entry.compared.frames_per_batch = interleaved_.frames_per_batch();
-    held_ = &entry;
+    loaded_ = &entry;
   }
 
-  void draw_until(Entry& entry, int blocks) {
-    hold(entry);
+  void measure_until(Entry& entry, int blocks) {
+    load(entry);
     const bool first = entry.blocks.empty();
     while (static_cast<int>(entry.blocks.size()) < blocks && (first || !must_confirm())) {
       entry.blocks.push_back(interleaved_.block());
@@ -120,10 +121,10 @@ class Timer {
   }
 
   void judge_blocks(Entry& entry) {
-    Compared& compared = entry.compared;
+    ComparedConfiguration& compared = entry.compared;
     if (compared.clock == SideClock::device && !measure::device_clock_holds(entry.blocks)) {
       compared.clock = SideClock::wall;
-      compared.why_wall = WallClockCause::implausible;
+      compared.wall_clock_cause = WallClockCause::implausible;
     }
     const Look look = look_at(measure::differences(entry.blocks, compared.clock), options_.design);
     compared.verdict = look.verdict;
@@ -142,8 +143,8 @@ class Timer {
     return record::summarise(times).value_or(SideTime{});
   }
 
-  [[nodiscard]] bool over_budget() const {
-    return options_.budget && since_begin_.elapsed() >= *options_.budget;
+  [[nodiscard]] bool is_over_budget() const {
+    return options_.budget && comparison_stopwatch_.elapsed() >= *options_.budget;
   }
 
   // Returns the minimum time needed to confirm the current suspects (configurations that seem
@@ -151,25 +152,25 @@ class Timer {
   [[nodiscard]] double confirmation_s() const {
     double seconds = 0;
     for (const Entry& entry : entries_) {
-      const Compared& compared = entry.compared;
+      const ComparedConfiguration& compared = entry.compared;
       const bool suspected =
           compared.verdict == PairVerdict::slower || compared.verdict == PairVerdict::faster;
       if (!suspected || compared.ended || compared.blocks == 0) continue;
       seconds += compared.seconds / compared.blocks *
                  static_cast<double>(options_.confirmation.blocks_per_process_run) *
-                 least_process_runs;
+                 min_process_runs;
     }
     return seconds;
   }
 
   // Returns whether measuring more blocks would use up the time needed for the confirmation.
   [[nodiscard]] bool must_confirm() const {
-    return options_.budget && since_begin_.seconds() + confirmation_s() >=
+    return options_.budget && comparison_stopwatch_.seconds() + confirmation_s() >=
                                   std::chrono::duration<double>(*options_.budget).count();
   }
 
-  [[nodiscard]] bool may_go_on(const Entry& entry) const {
-    const Compared& compared = entry.compared;
+  [[nodiscard]] bool can_continue(const Entry& entry) const {
+    const ComparedConfiguration& compared = entry.compared;
     return !compared.ended && compared.reason.empty() &&
            compared.verdict == PairVerdict::undecided &&
            options_.design.next_look(compared.blocks) > 0;
@@ -177,24 +178,24 @@ class Timer {
 
   // Returns an upper limit for the remaining time: the time for all blocks that could still be
   // requested, or the remaining budget if that is less.
-  [[nodiscard]] double most_left_s() const {
+  [[nodiscard]] double max_remaining_s() const {
     double left = 0;
     for (const Entry& entry : entries_) {
-      if (!may_go_on(entry)) continue;
+      if (!can_continue(entry)) continue;
       left += entry.compared.seconds / entry.compared.blocks *
               (options_.design.looks.back() - entry.compared.blocks);
     }
     if (!options_.budget) return left;
-    return std::min(
-        left, std::chrono::duration<double>(*options_.budget).count() - since_begin_.seconds());
+    return std::min(left, std::chrono::duration<double>(*options_.budget).count() -
+                              comparison_stopwatch_.seconds());
   }
 
-  void go_on_with_the_widest() {
+  void continue_with_widest() {
     while (!must_confirm()) {
       Entry* widest = nullptr;
       int open = 0;
       for (Entry& entry : entries_) {
-        if (!may_go_on(entry)) continue;
+        if (!can_continue(entry)) continue;
         ++open;
         const auto width = [](const Entry& each) {
           return each.compared.shift.interval.half_width();
@@ -203,11 +204,12 @@ class Timer {
       }
       if (widest == nullptr) return;
       const int total = static_cast<int>(entries_.size());
-      show({.stage = ComparisonStage::more_blocks}, *widest, total - open, total, most_left_s());
-      about(*widest, [&] {
-        // If the budget ends too early, draw_until() measures fewer blocks than planned.
+      report_progress({.stage = ComparisonStage::more_blocks}, *widest, total - open, total,
+                      max_remaining_s());
+      with_stopwatch(*widest, [&] {
+        // If the budget ends too early, measure_until() measures fewer blocks than planned.
         // judge_blocks() then evaluates the blocks that were measured.
-        draw_until(*widest, options_.design.next_look(widest->compared.blocks));
+        measure_until(*widest, options_.design.next_look(widest->compared.blocks));
         judge_blocks(*widest);
       });
     }
@@ -234,18 +236,18 @@ class Timer {
     int done = 0;
     const auto process_run = [&](std::span<const std::size_t> open, std::size_t number,
                                  std::size_t until) {
-      const bool enough = number > least_process_runs && over_budget();
+      const bool enough = number > min_process_runs && is_over_budget();
       const bool all_ended = std::ranges::all_of(
           open, [&](std::size_t i) { return suspected[i]->compared.ended.has_value(); });
-      if (enough || all_ended || !restarted()) return false;
+      if (enough || all_ended || !restart_workers()) return false;
       const auto left = static_cast<int>((until - number + 1) * open.size());
       const int total = done + left;
       for (const std::size_t i : open) {
-        const double each_s = done > 0 ? stopwatch.seconds() / done : 0;
-        show({.stage = ComparisonStage::fresh_process_runs,
-              .process_run = number,
-              .process_runs = until},
-             *suspected[i], done, total, each_s * (total - done));
+        const double mean_s = done > 0 ? stopwatch.seconds() / done : 0;
+        report_progress({.stage = ComparisonStage::fresh_process_runs,
+                         .process_run = number,
+                         .process_runs = until},
+                        *suspected[i], done, total, mean_s * (total - done));
         run_again(*suspected[i], fresh[i]);
         ++done;
       }
@@ -254,13 +256,14 @@ class Timer {
     const auto confirmed =
         confirm_in_looks(fresh, options_.confirmation, options_.design, process_run);
     for (std::size_t i = 0; i < suspected.size(); ++i) {
-      if (!suspected[i]->compared.ended) take(confirmed[i], fresh[i], suspected[i]->compared);
+      if (!suspected[i]->compared.ended)
+        apply_confirmation(confirmed[i], fresh[i], suspected[i]->compared);
     }
   }
 
   // Starts new workers for both sides. Returns whether fresh process runs can be measured.
-  bool restarted() {
-    held_ = nullptr;
+  bool restart_workers() {
+    loaded_ = nullptr;
     try {
       interleaved_.restart();
       return true;
@@ -271,8 +274,8 @@ class Timer {
 
   void run_again(Entry& entry, Suspect& suspect) {
     if (entry.compared.ended) return;
-    about(entry, [&] {
-      hold(entry);
+    with_stopwatch(entry, [&] {
+      load(entry);
       std::vector<measure::Block> blocks;
       while (blocks.size() < options_.confirmation.blocks_per_process_run) {
         blocks.push_back(interleaved_.block());
@@ -284,9 +287,10 @@ class Timer {
     });
   }
 
-  static void take(const Confirmation& confirmed, const Suspect& suspect, Compared& compared) {
+  static void apply_confirmation(const Confirmation& confirmed, const Suspect& suspect,
+                                 ComparedConfiguration& compared) {
     const auto suspected = std::exchange(compared.verdict, confirmed.verdict);
-    if (suspect.process_runs.size() < least_process_runs) {
+    if (suspect.process_runs.size() < min_process_runs) {
       compared.reason = {.cause = TimeCause::no_fresh_process_runs, .suspected = suspected};
       return;
     }
@@ -301,7 +305,7 @@ class Timer {
   }
 
   void conclude(Entry& entry) {
-    Compared& compared = entry.compared;
+    ComparedConfiguration& compared = entry.compared;
     if (compared.blocks == 0) compared.work.reset();
     const bool unexplained = !compared.ended && compared.reason.empty();
     if (unexplained && compared.verdict == PairVerdict::undecided) {
@@ -313,29 +317,31 @@ class Timer {
     }
   }
 
-  void show(ComparisonProgress progress, const Entry& entry, int done, int total, double left_s) {
-    if (!tell_) return;
+  void report_progress(ComparisonProgress progress, const Entry& entry, int done, int total,
+                       double left_s) {
+    if (!on_progress_) return;
     progress.configuration = entry.compared.key;
     progress.done = done;
     progress.total = total;
     progress.left = std::chrono::seconds(static_cast<long>(std::ceil(std::max(0.0, left_s))));
-    tell_(progress);
+    on_progress_(progress);
   }
 
   const ComparisonOptions& options_;
-  const Tell& tell_;
-  const measure::Stopwatch& since_begin_;  // measures from the start of the whole comparison
-  measure::Stopwatch since_start_;         // measures from the start of the first timing block
+  const OnProgress& on_progress_;
+  // Measure from the start of the whole comparison, and from the start of the first timing block.
+  const measure::Stopwatch& comparison_stopwatch_;
+  measure::Stopwatch timing_stopwatch_;
   measure::Interleaved interleaved_;
   std::vector<Entry> entries_;
-  const Entry* held_ = nullptr;  // the configuration that both workers have loaded
+  const Entry* loaded_ = nullptr;  // the configuration that both workers have loaded
 };
 
 }  // namespace
 
 void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,
-                   const Tell& tell, std::vector<Compared>& compared) {
-  Timer(options, since, tell, compared).run();
+                   const OnProgress& on_progress, std::vector<ComparedConfiguration>& compared) {
+  Timer(options, since, on_progress, compared).run();
 }
 
 }  // namespace triptych::comparison

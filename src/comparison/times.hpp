@@ -13,6 +13,6 @@ namespace triptych::comparison {
 // meaningless. `since` measures from the start of the comparison, because the budget includes the
 // deterministic measurements. Throws the same exceptions as measure::Interleaved.
 void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,
-                   const Tell& tell, std::vector<Compared>& compared);
+                   const OnProgress& on_progress, std::vector<ComparedConfiguration>& compared);
 
 }  // namespace triptych::comparison

@@ -21,7 +21,7 @@ constexpr std::array<std::string_view, 8> driver_settings{
 constexpr std::array<std::string_view, 5> file_settings{"_DIR", "_DUMP", "_FILE", "_PATH",
                                                         "_TRACE"};
 
-bool names_no_file(const std::string& name, const std::string& value) {
+bool is_harmless_setting(const std::string& name, const std::string& value) {
   const bool setting = std::ranges::any_of(
       driver_settings, [&](std::string_view prefix) { return name.starts_with(prefix); });
   const bool file = std::ranges::any_of(
@@ -30,17 +30,18 @@ bool names_no_file(const std::string& name, const std::string& value) {
          value.find_first_of("/=") == std::string::npos;
 }
 
-bool is_set_here(const std::string& name, const std::string& value) {
-  const char* here = std::getenv(name.c_str());
-  return here != nullptr && value == here;
+bool is_set_in_process(const std::string& name, const std::string& value) {
+  const char* own_value = std::getenv(name.c_str());
+  return own_value != nullptr && value == own_value;
 }
 
 }  // namespace
 
-std::map<std::string, std::string> repeatable(std::map<std::string, std::string> environment) {
+std::map<std::string, std::string> allowed_environment(
+    std::map<std::string, std::string> environment) {
   std::erase_if(environment, [](const auto& variable) {
     const auto& [name, value] = variable;
-    return !names_no_file(name, value) && !is_set_here(name, value);
+    return !is_harmless_setting(name, value) && !is_set_in_process(name, value);
   });
   return environment;
 }

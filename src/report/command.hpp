@@ -28,7 +28,7 @@ struct Command {
 // variable that can name code to load, such as LD_PRELOAD or VK_DRIVER_FILES, is printed only if it
 // has the same value in this process. Settings of known drivers that do not name a file are always
 // printed.
-[[nodiscard]] std::map<std::string, std::string> repeatable(
+[[nodiscard]] std::map<std::string, std::string> allowed_environment(
     std::map<std::string, std::string> environment);
 
 // Returns the command as shell input.

@@ -7,7 +7,8 @@
 
 namespace triptych::report {
 
-std::string command_for(const comparison::Compared& compared, const ComparisonCommand& command) {
+std::string command_for(const comparison::ComparedConfiguration& compared,
+                        const ComparisonCommand& command) {
   std::string text =
       fmt::format("triptych compare {} {}", core::shell_quoted(command.plan), command.sides);
   for (const std::string& factor : command.varied) {

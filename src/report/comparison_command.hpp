@@ -16,7 +16,7 @@ struct ComparisonCommand {
 };
 // Returns the command that compares only this configuration, so that the whole time budget is spent
 // on its verdict.
-[[nodiscard]] std::string command_for(const comparison::Compared& compared,
+[[nodiscard]] std::string command_for(const comparison::ComparedConfiguration& compared,
                                       const ComparisonCommand& command);
 
 }  // namespace triptych::report

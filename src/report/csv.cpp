@@ -21,7 +21,7 @@ bool is_number(std::string_view text) {
 // Returns whether the text must get a leading apostrophe. This is the case if a spreadsheet would
 // evaluate the text as a formula, and if the text already begins with an apostrophe. Removing one
 // leading apostrophe therefore always restores the original text.
-bool is_marked(std::string_view text) {
+bool needs_apostrophe(std::string_view text) {
   constexpr std::string_view starts = "=+-@\t\r\n'";
   if (text.empty()) return false;
   const bool wide = text.starts_with("＝") || text.starts_with("＋") || text.starts_with("－") ||
@@ -29,14 +29,14 @@ bool is_marked(std::string_view text) {
   return wide || (starts.find(text.front()) != std::string_view::npos && !is_number(text));
 }
 
-struct Field {
+struct FieldFormatter {
   std::string operator()(std::monostate) const { return {}; }
   std::string operator()(double number) const {
     return std::isnan(number) ? std::string() : fmt::format("{}", number);
   }
   std::string operator()(std::uint64_t number) const { return fmt::format("{}", number); }
   std::string operator()(const std::string& text) const {
-    const std::string_view mark = is_marked(text) ? "'" : "";
+    const std::string_view mark = needs_apostrophe(text) ? "'" : "";
     // Text with semicolons or tabs is quoted, because spreadsheets may use these as separators.
     if (text.find_first_of(",;\t\"\r\n") == std::string::npos) return std::string(mark) + text;
     std::string quoted = "\"";
@@ -52,7 +52,7 @@ struct Field {
 }  // namespace
 
 std::string csv_field(const Cell& cell) {
-  return std::visit(Field{}, cell);
+  return std::visit(FieldFormatter{}, cell);
 }
 
 CsvFile::CsvFile(std::filesystem::path file, std::span<const std::string> columns)

@@ -67,7 +67,7 @@ double size_of(const Finding& finding) {
 
 // Returns whether the finding is a regression of the check `correlation` that a finding of the
 // check `cost` already reports: the instructions of the same device increased.
-bool is_told_by_cost(const Finding& finding, std::span<const Finding> findings) {
+bool is_explained_by_cost(const Finding& finding, std::span<const Finding> findings) {
   if (finding.check != Check::correlation || finding.verdict != Verdict::regression) return false;
   return std::ranges::any_of(findings, [&](const Finding& other) {
     return other.check == Check::cost && other.verdict == Verdict::regression &&
@@ -142,27 +142,27 @@ const Finding* worse_of(const Finding* a, const Finding* b) {
 }
 
 // Collects the data about all findings that are needed to group them.
-class Grouping {
+class FindingGrouper {
  public:
-  explicit Grouping(std::span<const Finding> findings) {
+  explicit FindingGrouper(std::span<const Finding> findings) {
     for (const Finding& finding : findings) {
       const auto place = std::pair(finding.check, std::string_view(finding.device));
       if (finding.verdict == Verdict::pass) {
-        passes_[{finding.check, finding.configuration}].push_back(finding.device);
+        passing_devices_[{finding.check, finding.configuration}].push_back(finding.device);
       } else if (finding.verdict == Verdict::regression) {
-        wrong_[{finding.check, finding.configuration}].push_back(finding.device);
+        failing_devices_[{finding.check, finding.configuration}].push_back(finding.device);
       }
       if (finding.configuration.empty()) continue;
       for (const auto& [factor, level] : factors_of(finding)) levels_[place][factor].insert(level);
     }
     const Places wrong = wrong_images(findings);
     for (const Finding& finding : findings) {
-      if (is_told_by_cost(finding, findings)) continue;
+      if (is_explained_by_cost(finding, findings)) continue;
       const std::pair<std::string_view, std::string_view> place(finding.device,
                                                                 finding.configuration);
       const bool work = finding.check == Check::counters || finding.check == Check::statistics;
       if (work && finding.verdict == Verdict::regression && wrong.contains(place)) {
-        changed_.insert(place);
+        changed_with_image_.insert(place);
         continue;
       }
       const std::string_view device =
@@ -179,11 +179,11 @@ class Grouping {
       for (const Finding* each : members) by_technique[technique_of(*each)].push_back(each);
       const auto& known = levels_of(*members.front());
       const auto techniques = known.find("technique");
-      const bool all_say_it =
+      const bool all_fail =
           techniques == known.end() || techniques->second.size() == by_technique.size();
       // If at least this many techniques fail in the same way, they probably have the same cause.
       constexpr std::size_t several = 3;
-      if (all_say_it || by_technique.size() >= several) by_technique = {{"", members}};
+      if (all_fail || by_technique.size() >= several) by_technique = {{"", members}};
       for (const auto& [technique, same] : by_technique) all.push_back(group_of(same));
     }
     std::ranges::stable_sort(all, {}, [](const FindingGroup& group) {
@@ -211,15 +211,15 @@ class Grouping {
     group.kind = group_kind_of(*first);
     group.worst = first;
     for (const Finding* each : members) group.worst = worse_of(group.worst, each);
-    if (const auto found = passes_.find({first->check, first->configuration});
-        found != passes_.end() && !first->configuration.empty()) {
-      group.right_on = found->second;
+    if (const auto found = passing_devices_.find({first->check, first->configuration});
+        found != passing_devices_.end() && !first->configuration.empty()) {
+      group.correct_devices = found->second;
     }
-    group.wrong_on = also_wrong(members);
+    group.failing_devices = other_failing_devices(members);
     if (first->check == Check::image) {
-      group.changed_with_it =
+      group.changed_counters =
           static_cast<std::size_t>(std::ranges::count_if(members, [&](const Finding* f) {
-            return changed_.contains({f->device, f->configuration});
+            return changed_with_image_.contains({f->device, f->configuration});
           }));
     }
     return group;
@@ -227,7 +227,7 @@ class Grouping {
 
   // Returns the devices with other drivers that fail in some configurations of `members` and pass
   // in none of them.
-  [[nodiscard]] std::vector<std::string> also_wrong(const Members& members) const {
+  [[nodiscard]] std::vector<std::string> other_failing_devices(const Members& members) const {
     std::set<std::string> wrong;
     std::set<std::string> right;
     const auto add = [](const auto& from, const Finding* member, std::set<std::string>& to) {
@@ -236,8 +236,8 @@ class Grouping {
     };
     for (const Finding* each : members) {
       if (each->configuration.empty()) continue;
-      add(wrong_, each, wrong);
-      add(passes_, each, right);
+      add(failing_devices_, each, wrong);
+      add(passing_devices_, each, right);
     }
     const std::vector<std::string> own = devices_of(members);
     std::erase_if(wrong, [&](const std::string& device) {
@@ -253,32 +253,32 @@ class Grouping {
   // a factor, or "technique≠tiles" if it has all levels but one. All other factors are left out,
   // because longer lists would not help the reader.
   [[nodiscard]] std::string signature_of(const Members& members) const {
-    Levels here;
+    Levels own_levels;
     for (const Finding* each : members) {
-      for (const auto& [factor, level] : factors_of(*each)) here[factor].insert(level);
+      for (const auto& [factor, level] : factors_of(*each)) own_levels[factor].insert(level);
     }
     std::string text;
     const Levels& known = levels_of(*members.front());
-    for (const auto& [factor, levels] : here) {
+    for (const auto& [factor, levels] : own_levels) {
       const auto found = known.find(factor);
-      const bool tells = found != known.end() && levels.size() < found->second.size();
-      if (!tells) continue;
+      const bool distinguishes = found != known.end() && levels.size() < found->second.size();
+      if (!distinguishes) continue;
       const std::string_view separator = text.empty() ? "" : ", ";
       if (levels.size() <= 2) {
         text += fmt::format("{}{}={}", separator, factor, fmt::join(levels, "|"));
       } else if (levels.size() + 1 == found->second.size()) {
-        const auto [other, hit] = std::ranges::mismatch(found->second, levels);
+        const auto [other, ignored] = std::ranges::mismatch(found->second, levels);
         text += fmt::format("{}{}≠{}", separator, factor, *other);
       }
     }
     return text;
   }
 
-  Places changed_;  // wrong images whose counters or statistics also changed
+  Places changed_with_image_;  // wrong images whose counters or statistics also changed
   std::map<std::pair<Check, std::string_view>, Levels> levels_;
   // Device ids, by check and configuration.
-  std::map<std::pair<Check, std::string_view>, std::vector<std::string>> passes_;
-  std::map<std::pair<Check, std::string_view>, std::vector<std::string>> wrong_;
+  std::map<std::pair<Check, std::string_view>, std::vector<std::string>> passing_devices_;
+  std::map<std::pair<Check, std::string_view>, std::vector<std::string>> failing_devices_;
   std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_kind_;
 };
 
@@ -290,7 +290,7 @@ bool is_reproduced_by_render(const Finding& finding) {
 
 // Creates a command that measures and judges again, with a separate store. A difference from stored
 // values cannot be reproduced in any other way.
-void judge_again(const Finding& finding, const judge::GateResult& result, Command& command) {
+void make_gate_command(const Finding& finding, const judge::GateResult& result, Command& command) {
   command.command = "gate";
   command.object = result.argument.empty() ? result.plan : result.argument;
   if (finding.check == Check::correlation) {
@@ -316,20 +316,20 @@ void judge_again(const Finding& finding, const judge::GateResult& result, Comman
 
 // Returns whether a command can name the plan. A plan from a file is named by its path, which a
 // store does not contain.
-bool is_known(const judge::GateResult& result) {
+bool can_name_plan(const judge::GateResult& result) {
   return !result.argument.empty() || result.plan.find('/') != std::string::npos;
 }
 
 }  // namespace
 
-Blame FindingGroup::blame() const {
+FaultAttribution FindingGroup::attribution() const {
   const bool drawn = first->check == Check::image || first->check == Check::stress ||
                      first->check == Check::counters;
   if (first->verdict != Verdict::regression || !drawn) return {};
-  if (!wrong_on.empty()) return {Blame::Of::not_the_driver, wrong_on};
+  if (!failing_devices.empty()) return {FaultAttribution::Kind::not_the_driver, failing_devices};
   if (!first->injected.empty()) return {};
   const std::string api = first->device.substr(0, first->device.find(':') + 1);
-  const auto by_its_api = [&](const std::vector<std::string>& correct) {
+  const auto with_same_api = [&](const std::vector<std::string>& correct) {
     std::vector<std::string> same;
     for (const std::string& each : correct) {
       const bool itself = each == first->device;  // the same device with another driver version
@@ -338,18 +338,19 @@ Blame FindingGroup::blame() const {
     }
     return same;
   };
-  if (auto now = by_its_api(right_on); !now.empty()) return {Blame::Of::driver, std::move(now)};
-  if (auto then = by_its_api(first->accepted_on); !then.empty()) {
-    return {Blame::Of::driver_since_accepted, std::move(then)};
+  if (auto passing = with_same_api(correct_devices); !passing.empty())
+    return {FaultAttribution::Kind::driver, std::move(passing)};
+  if (auto passed = with_same_api(first->accepted_on); !passed.empty()) {
+    return {FaultAttribution::Kind::driver_since_accepted, std::move(passed)};
   }
   return {};
 }
 
 std::vector<FindingGroup> grouped(std::span<const Finding> findings) {
-  return Grouping(findings).groups();
+  return FindingGrouper(findings).groups();
 }
 
-bool have_one_cause(const FindingGroup& a, const FindingGroup& b) {
+bool have_same_cause(const FindingGroup& a, const FindingGroup& b) {
   const auto key = [](const FindingGroup& group) {
     return std::tuple(group.first->verdict, group.devices, std::string_view(group.kind));
   };
@@ -365,19 +366,19 @@ bool have_one_cause(const FindingGroup& a, const FindingGroup& b) {
   return a.first->check == b.first->check && !shared.empty();
 }
 
-bool take_in(FindingGroup& group, const FindingGroup& other) {
+bool merge_into(FindingGroup& group, const FindingGroup& other) {
   const bool smaller = is_smaller(other.first, group.first);
   if (smaller) {
     group.first = other.first;
-    group.right_on = other.right_on;
-    group.wrong_on = other.wrong_on;
+    group.correct_devices = other.correct_devices;
+    group.failing_devices = other.failing_devices;
   }
   // If several findings are equally severe, worse_of() prefers its first argument. Therefore the
   // smallest case is also the worst case if all findings are equally severe, as skips are.
   group.worst = worse_of(group.first, worse_of(group.worst, other.worst));
   group.configurations += other.configurations;
   group.members.insert(group.members.end(), other.members.begin(), other.members.end());
-  group.changed_with_it += other.changed_with_it;
+  group.changed_counters += other.changed_counters;
   if (group.signature != other.signature) group.signature.clear();
   return smaller;
 }
@@ -407,11 +408,11 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
   // --limit does not apply, because counting instructions has its own time limit.
   if (finding.check == Check::cost) command.limit.reset();
   if (!is_reproduced_by_render(finding)) {
-    if (!is_open(finding) || !is_known(result)) return {};
-    judge_again(finding, result, command);
+    if (!is_open(finding) || !can_name_plan(result)) return {};
+    make_gate_command(finding, result, command);
   }
   if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {
-    command.environment = repeatable(set->second);
+    command.environment = allowed_environment(set->second);
   }
   return text_of(command);
 }

@@ -30,10 +30,10 @@ std::string escape(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
-    const bool is_one = core::utf8_length(text) > 0;
+    const bool is_valid = core::utf8_length(text) > 0;
     const std::string_view character = take_character(text);
     const char first = character.front();
-    if (!is_one) {
+    if (!is_valid) {
       result += core::replacement_character;
     } else if (first == '&') {
       result += "&amp;";
@@ -72,12 +72,12 @@ std::string base64(std::span<const std::byte> bytes) {
   std::string result;
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     std::uint32_t group = 0;
-    const std::size_t here = std::min<std::size_t>(3, bytes.size() - i);
+    const std::size_t byte_count = std::min<std::size_t>(3, bytes.size() - i);
     for (std::size_t k = 0; k < 3; ++k) {
-      group = group << 8 | (k < here ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0U);
+      group = group << 8 | (k < byte_count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0U);
     }
     for (std::size_t k = 0; k < 4; ++k) {
-      result += k <= here ? digits[group >> (18 - 6 * k) & 63U] : '=';
+      result += k <= byte_count ? digits[group >> (18 - 6 * k) & 63U] : '=';
     }
   }
   return result;
@@ -163,8 +163,8 @@ Html table(const Rows& rows, std::string_view css_class) {
   for (const TableRow& row : rows) {
     text += markup("<tr>");
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const bool heads = head && !row[i].html().text().empty();
-      text += markup("<{0}{1}>{2}</{0}>", heads ? "th" : "td",
+      const bool is_heading = head && !row[i].html().text().empty();
+      text += markup("<{0}{1}>{2}</{0}>", is_heading ? "th" : "td",
                      numbers.at(i) ? markup(" class=\"number\"") : Html(), row[i].html());
     }
     text += markup("</tr>\n");

@@ -19,7 +19,7 @@ using judge::Finding;
 using judge::GateResult;
 using judge::Verdict;
 
-constexpr std::size_t named_devices = 3;
+constexpr std::size_t max_named_devices = 3;
 
 struct Tally {
   std::size_t decided = 0;
@@ -40,7 +40,7 @@ std::string places(const std::map<std::string, Tally>& by_device, Verdict verdic
   for (const auto& [device, tally] : by_device) {
     const auto found = tally.of.find(verdict);
     if (found == tally.of.end()) continue;
-    if (shown == named_devices) {
+    if (shown == max_named_devices) {
       ++rest;
       continue;
     }
@@ -52,7 +52,7 @@ std::string places(const std::map<std::string, Tally>& by_device, Verdict verdic
   return rest > 0 ? text + fmt::format("; {} more devices", rest) : text;
 }
 
-KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const> results) {
+CheckRow row_of(const words::CheckWords& kind, std::span<const GateResult* const> results) {
   std::map<std::string, Tally> by_device;
   std::map<Verdict, std::size_t> all;
   std::size_t right = 0;
@@ -61,10 +61,10 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
       if (finding.check != kind.check) continue;
       // A finding without a device is about the reference image. If it passes, it does not count as
       // an image that is within its bound.
-      const bool of_truth = finding.check == Check::image && finding.device.empty();
+      const bool about_reference = finding.check == Check::image && finding.device.empty();
       const bool is_right =
           finding.verdict == Verdict::pass || finding.verdict == Verdict::improved;
-      if (is_right && !of_truth) ++right;
+      if (is_right && !about_reference) ++right;
       Tally& tally = by_device[finding.device];
       ++tally.of[finding.verdict];
       ++all[finding.verdict];
@@ -74,7 +74,7 @@ KindRow row_of(const words::CheckWords& kind, std::span<const GateResult* const>
   const bool shown =  // times are shown but do not affect the verdict
       kind.check == Check::timing &&
       std::ranges::none_of(results, [](const GateResult* each) { return each->times_decided; });
-  KindRow row{kind.check, kind.label, "–", Verdict::skipped, std::string(kind.none)};
+  CheckRow row{kind.check, kind.label, "–", Verdict::skipped, std::string(kind.none)};
   if (all[Verdict::regression] > 0) {
     row = {kind.check, kind.label, "FAIL", Verdict::regression,
            places(by_device, Verdict::regression, kind.wrong)};
@@ -109,12 +109,12 @@ bool was_checked(const words::CheckWords& kind, std::span<const GateResult* cons
 // Adds a group. Merges it with a group from another plan that has the same cause.
 void add(std::vector<Cause>& causes, const GateResult& result, FindingGroup group) {
   const auto same = std::ranges::find_if(
-      causes, [&](const Cause& cause) { return have_one_cause(cause.group, group); });
+      causes, [&](const Cause& cause) { return have_same_cause(cause.group, group); });
   if (same == causes.end()) {
     causes.push_back({&result, std::move(group)});
     return;
   }
-  if (take_in(same->group, group)) same->result = &result;
+  if (merge_into(same->group, group)) same->result = &result;
   ++same->plans;
 }
 
@@ -132,11 +132,11 @@ Overview overview(std::span<const GateResult* const> results) {
     }
     for (FindingGroup& group : grouped(result->findings)) {
       if (group.first->verdict == Verdict::pass) continue;
-      add(is_open(*group.first) ? all.open : all.aside, *result, std::move(group));
+      add(is_open(*group.first) ? all.open : all.remarks, *result, std::move(group));
     }
   }
   all.devices = devices.size();
-  for (std::vector<Cause>* causes : {&all.open, &all.aside}) {
+  for (std::vector<Cause>* causes : {&all.open, &all.remarks}) {
     std::ranges::stable_sort(*causes, std::greater{},
                              [](const Cause& cause) { return cause.group.first->verdict; });
   }

@@ -14,9 +14,9 @@
 
 namespace triptych::report {
 
-struct KindRow {
+struct CheckRow {
   judge::Check check;
-  std::string_view kind;     // "Images"
+  std::string_view label;    // "Images"
   std::string_view verdict;  // "FAIL", "pass", "no verdict", "waived", "–"
   judge::Verdict worst;      // Verdict::skipped if there is no verdict
   std::string sentence;      // contains messages from drivers, so callers must escape it
@@ -33,9 +33,9 @@ struct Overview {
   std::size_t devices = 0;
   // Whether options such as --set, --shard or --filter selected only a part of some plan.
   bool part = false;
-  std::vector<KindRow> rows;
-  std::vector<Cause> open;   // findings that need attention, the worst first
-  std::vector<Cause> aside;  // waived, improved, advisory or skipped findings, without passes
+  std::vector<CheckRow> rows;
+  std::vector<Cause> open;     // findings that need attention, the worst first
+  std::vector<Cause> remarks;  // waived, improved, advisory or skipped findings, without passes
   std::vector<NearestBound> bounds;
   std::vector<std::string> circumstances;  // see report/circumstances.hpp
 };

@@ -19,10 +19,10 @@ namespace {
 // reference values. Two equal infinities, such as two depths without a surface, have the difference
 // 0.
 float sum_of_bounds(float a, float b, float truth_a, float truth_b) {
-  const double apart = truth_a == truth_b
-                           ? 0
-                           : std::abs(static_cast<double>(truth_a) - static_cast<double>(truth_b));
-  const double sum = static_cast<double>(a) + static_cast<double>(b) + apart;
+  const double distance =
+      truth_a == truth_b ? 0
+                         : std::abs(static_cast<double>(truth_a) - static_cast<double>(truth_b));
+  const double sum = static_cast<double>(a) + static_cast<double>(b) + distance;
   return std::nextafter(static_cast<float>(sum), std::numeric_limits<float>::infinity());
 }
 
@@ -73,7 +73,7 @@ ShownError shown_error(const core::Image& image, const core::Image& expected,
   const report::ShareOfBound shares = report::share_of_bound(image, expected, bound);
   error.displayed = core::to_srgb(shares.image);
   for (const auto& mark : shares.marks) error.rings.push_back({mark.x, mark.y});
-  error.ring_radius = shares.ring;
+  error.ring_radius = shares.ring_radius;
   return error;
 }
 

@@ -17,7 +17,7 @@ namespace {
 using judge::Finding;
 using judge::Verdict;
 
-constexpr std::size_t most_of_each = 10;
+constexpr std::size_t max_annotations_per_verdict = 10;
 
 // Escapes a part of a workflow command, so that it cannot end the command or begin another one.
 // `also` contains further characters to escape.
@@ -35,7 +35,7 @@ std::string escaped(std::string_view text, std::string_view also) {
 
 std::string title_of(const Cause& cause) {
   return core::printable(
-      fmt::format("{}: {}", judge::name_of(cause.group.first->check), words::place(cause)), 200);
+      fmt::format("{}: {}", judge::name_of(cause.group.first->check), words::location(cause)), 200);
 }
 
 std::string message_of(const Cause& cause) {
@@ -47,16 +47,16 @@ std::string message_of(const Cause& cause) {
 }  // namespace
 
 std::string github_annotations(std::span<const judge::GateResult> results,
-                               const FindingPlaces& places) {
+                               const FindingLocations& locations) {
   std::map<Verdict, std::size_t> written;
   std::string text;
   for (const Cause& cause : overview(results).open) {
     const Finding& first = *cause.group.first;
-    if (++written[first.verdict] > most_of_each) continue;
-    const SourcePlace place = places.of(first, *cause.result);
+    if (++written[first.verdict] > max_annotations_per_verdict) continue;
+    const SourceLocation location = locations.of(first, *cause.result);
     std::string where;
-    if (!place.file.empty()) {
-      where = fmt::format("file={},line={},", escaped(place.file, ",:"), place.line);
+    if (!location.file.empty()) {
+      where = fmt::format("file={},line={},", escaped(location.file, ",:"), location.line);
     }
     text += fmt::format("::{} {}title={}::{}\n",
                         first.verdict == Verdict::regression ? "error" : "warning", where,
@@ -66,11 +66,11 @@ std::string github_annotations(std::span<const judge::GateResult> results,
 }
 
 std::string gitlab_code_quality(std::span<const judge::GateResult> results,
-                                const FindingPlaces& places) {
+                                const FindingLocations& locations) {
   core::Json issues = core::Json::array();
   for (const Cause& cause : overview(results).open) {
     const Finding& first = *cause.group.first;
-    const SourcePlace place = places.of(first, *cause.result);
+    const SourceLocation location = locations.of(first, *cause.result);
     issues.push_back(
         {{"description", title_of(cause) + ": " + message_of(cause)},
          {"check_name", judge::name_of(first.check)},
@@ -79,8 +79,8 @@ std::string gitlab_code_quality(std::span<const judge::GateResult> results,
          {"severity", first.verdict == Verdict::regression ? "major" : "minor"},
          // GitLab ignores an issue without a path.
          {"location",
-          {{"path", place.file.empty() ? cause.result->plan : place.file},
-           {"lines", {{"begin", place.line}}}}}});
+          {{"path", location.file.empty() ? cause.result->plan : location.file},
+           {"lines", {{"begin", location.line}}}}}});
   }
   return core::json_text(issues, 2) + "\n";
 }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "judge/gate/gate.hpp"
-#include "report/ci/places.hpp"
+#include "report/ci/finding_locations.hpp"
 
 namespace triptych::report {
 
@@ -13,11 +13,11 @@ namespace triptych::report {
 // of a regression, and a warning for each cause that could not be judged. Returns at most ten
 // errors and ten warnings, because GitHub shows no more for a step.
 [[nodiscard]] std::string github_annotations(std::span<const judge::GateResult> results,
-                                             const FindingPlaces& places);
+                                             const FindingLocations& locations);
 
 // Returns a GitLab Code Quality report with all causes of regressions and all causes that could not
 // be judged.
 [[nodiscard]] std::string gitlab_code_quality(std::span<const judge::GateResult> results,
-                                              const FindingPlaces& places);
+                                              const FindingLocations& locations);
 
 }  // namespace triptych::report

@@ -15,7 +15,7 @@ std::string row(std::string_view name, std::string_view value) {
   return fmt::format("| {} | {} |\n", markdown_escaped(name), markdown_escaped(value));
 }
 
-std::string facts(const BugReport& report) {
+std::string device_facts(const BugReport& report) {
   const record::Device& device = report.device;
   std::string text = "\n| | |\n|---|---|\n";
   text += row("device", device.name);
@@ -79,7 +79,7 @@ std::string sequence(const BugReport& report) {
 // Returns a sentence about the search for a simpler frame, or for a shorter sequence of
 // configurations, that also fails: either there is none, or the search reached its maximum number
 // of frames.
-std::string_view end_of_search(const BugReport& report) {
+std::string_view search_result_text(const BugReport& report) {
   if (report.before.empty()) {
     return report.complete ? "If any factor is simplified further, the frame no longer fails in "
                              "this way.\n"
@@ -107,7 +107,7 @@ std::string markdown(const BugReport& report) {
   std::string text =
       fmt::format("# A frame that {} draws incorrectly\n\n{}\n", markdown_escaped(report.device.id),
                   markdown_escaped(report.message));
-  text += facts(report);
+  text += device_facts(report);
   text += "\n## How to reproduce it\n" + fenced(report.command, "");
   text += "\nThe command exits with code 0 if nothing is wrong.\n\n## Files\n\n" +
           list_of_files(report);
@@ -118,7 +118,7 @@ std::string markdown(const BugReport& report) {
   if (report.before.empty()) {
     text += fmt::format(" It simplified: {}.", markdown_escaped(text_of(report.changes)));
   }
-  text += fmt::format("\n{}", end_of_search(report));
+  text += fmt::format("\n{}", search_result_text(report));
   return text;
 }
 

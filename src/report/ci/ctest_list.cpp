@@ -17,7 +17,7 @@ struct Test {
   std::vector<std::string> command;  // arguments for triptych
   std::vector<std::string> labels;
   std::vector<std::string> requires_fixtures = {};
-  std::string sets_up = {};
+  std::string fixture_setup = {};
   std::string lock = {};
 };
 
@@ -51,12 +51,12 @@ std::string as_cmake(const Test& test, const std::string& program) {
   if (!test.requires_fixtures.empty()) {
     text += "\n  FIXTURES_REQUIRED " + list(test.requires_fixtures);
   }
-  if (!test.sets_up.empty()) text += "\n  FIXTURES_SETUP " + bracketed(test.sets_up);
+  if (!test.fixture_setup.empty()) text += "\n  FIXTURES_SETUP " + bracketed(test.fixture_setup);
   if (!test.lock.empty()) text += "\n  RESOURCE_LOCK " + bracketed(test.lock);
   return text + ")\n";
 }
 
-bool is_of_all(record::Check check) {
+bool needs_all(record::Check check) {
   return check == record::Check::stress || check == record::Check::correlation;
 }
 
@@ -69,7 +69,7 @@ std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device
   std::vector<Test> tests{{.name = stem + ".start",
                            .command = {"test-start", "--store", store},
                            .labels = {suite, "device"},
-                           .sets_up = stem}};
+                           .fixture_setup = stem}};
   std::vector<std::string> measured;
   for (const record::Device& device : devices) measured.push_back(stem + "." + device.id);
   for (const record::Device& device : devices) {
@@ -78,7 +78,7 @@ std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device
                      .command = {"test-measure", argument, "--device", device.id, "--store", store},
                      .labels = {suite, "measure", "device", device.api, device.id},
                      .requires_fixtures = {stem},
-                     .sets_up = fixture,
+                     .fixture_setup = fixture,
                      .lock = device.id});
     for (const record::Check each : checks) {
       const std::string check(record::name_of(each));
@@ -89,7 +89,7 @@ std::vector<Test> tests_of(const PlanTests& plan, std::span<const record::Device
            .labels = {suite, check, "device", device.api, device.id},
            // The checks `stress` and `correlation` compare each device with the other devices, so
            // all devices must have been measured.
-           .requires_fixtures = is_of_all(each) ? measured : std::vector<std::string>{fixture}});
+           .requires_fixtures = needs_all(each) ? measured : std::vector<std::string>{fixture}});
     }
   }
   if (checks.contains(record::Check::image)) {

@@ -82,10 +82,10 @@ std::string Junit::test_case(const Finding& finding, const judge::GateResult& re
   std::string text =
       fmt::format("    <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
                   escape(finding.test), escape(name_of(finding)), take_seconds(finding, result));
-  const SourcePlace place =
-      facts_.places == nullptr ? SourcePlace{} : facts_.places->of(finding, result);
-  if (!place.file.empty()) {
-    text += fmt::format(" file=\"{}\" line=\"{}\"", escape(place.file), place.line);
+  const SourceLocation location =
+      facts_.locations == nullptr ? SourceLocation{} : facts_.locations->of(finding, result);
+  if (!location.file.empty()) {
+    text += fmt::format(" file=\"{}\" line=\"{}\"", escape(location.file), location.line);
   }
   text += ">\n";
   text += properties(finding);

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "judge/gate/gate.hpp"
-#include "report/ci/places.hpp"
+#include "report/ci/finding_locations.hpp"
 
 namespace triptych::report {
 
@@ -14,7 +14,7 @@ struct JunitFacts {
   // The seconds that a configuration took, by plan and by (device, configuration). Its first test
   // case has this time, and the test cases of its other checks have 0, so that sums are correct.
   std::map<std::string, std::map<std::pair<std::string, std::string>, double>> seconds = {};
-  const FindingPlaces* places = nullptr;  // the source of the attributes `file` and `line`
+  const FindingLocations* locations = nullptr;  // the source of the attributes `file` and `line`
 };
 
 // Returns JUnit XML with a test suite for each plan and check, and a test case for each finding. A

@@ -12,15 +12,15 @@
 namespace triptych::report {
 namespace {
 
-constexpr std::size_t shown_openly = 10;
-constexpr std::size_t most_characters = 60000;
-constexpr std::size_t longest_listed_command = 4000;
-constexpr std::size_t most_of_bounds = 8000;
+constexpr std::size_t max_visible_causes = 10;
+constexpr std::size_t max_characters = 60000;
+constexpr std::size_t max_listed_command = 4000;
+constexpr std::size_t max_bounds_length = 8000;
 
 std::string rows(const Overview& all) {
   std::string text = "| check | verdict | details |\n|---|---|---|\n";
-  for (const KindRow& row : all.rows) {
-    text += fmt::format("| {} | {} | {} |\n", row.kind,
+  for (const CheckRow& row : all.rows) {
+    text += fmt::format("| {} | {} | {} |\n", row.label,
                         row.worst == judge::Verdict::regression ? "**FAIL**" : row.verdict,
                         markdown_escaped(row.sentence));
   }
@@ -29,15 +29,15 @@ std::string rows(const Overview& all) {
 
 std::string item(const Cause& cause) {
   const judge::Finding& first = *cause.group.first;
-  std::string text = fmt::format("- **{}** {}: {}  \n  {}\n", judge::name_of(first.verdict),
-                                 judge::name_of(first.check), markdown_escaped(words::place(cause)),
-                                 markdown_escaped(words::text_of(cause)));
+  std::string text = fmt::format(
+      "- **{}** {}: {}  \n  {}\n", judge::name_of(first.verdict), judge::name_of(first.check),
+      markdown_escaped(words::location(cause)), markdown_escaped(words::text_of(cause)));
   const std::string command = command_of(first, *cause.result);
-  if (!command.empty() && command.size() < longest_listed_command) text += fenced(command, "  ");
+  if (!command.empty() && command.size() < max_listed_command) text += fenced(command, "  ");
   return text;
 }
 
-std::string bounds(const Overview& all) {
+std::string bounds_details(const Overview& all) {
   if (all.bounds.empty()) return {};
   std::string text =
       "\n<details><summary>How close images come to their bounds</summary>\n\n"
@@ -46,18 +46,18 @@ std::string bounds(const Overview& all) {
     text += fmt::format("| {} | {} | {} | {:.3g} | {} |\n", markdown_escaped(bound.plan),
                         markdown_escaped(bound.device), bound.images, bound.share,
                         markdown_escaped(bound.configuration));
-    if (text.size() > most_of_bounds) break;
+    if (text.size() > max_bounds_length) break;
   }
   return text + "\n</details>\n";
 }
 
 // Returns only the number of advisories and skips, because listing them in the summary would bury
 // new findings. They are listed on the page.
-std::string counted(const std::map<std::string_view, std::size_t>& remarks) {
-  if (remarks.empty()) return {};
+std::string counted(const std::map<std::string_view, std::size_t>& remark_counts) {
+  if (remark_counts.empty()) return {};
   std::size_t all = 0;
   std::string checks;
-  for (const auto& [check, count] : remarks) {
+  for (const auto& [check, count] : remark_counts) {
     all += count;
     checks += fmt::format("{}{} {}", checks.empty() ? "" : ", ", check, count);
   }
@@ -100,7 +100,7 @@ std::string markdown_escaped(std::string_view text, std::size_t limit) {
 std::string markdown(std::span<const judge::GateResult> results) {
   const Overview all = overview(results);
   std::string text =
-      fmt::format("## {} ({})", words::word_of(all.code), static_cast<int>(all.code));
+      fmt::format("## {} ({})", words::verdict_word(all.code), static_cast<int>(all.code));
   for (const judge::GateResult& result : results) {
     text +=
         fmt::format("{} {}", &result == results.data() ? ":" : ",", markdown_escaped(result.plan));
@@ -112,27 +112,27 @@ std::string markdown(std::span<const judge::GateResult> results) {
   if (!all.circumstances.empty()) text += '\n';
   std::vector<const Cause*> rest;
   for (std::size_t i = 0; i < all.open.size(); ++i) {
-    if (i < shown_openly) {
+    if (i < max_visible_causes) {
       text += item(all.open[i]);
     } else {
       rest.push_back(&all.open[i]);
     }
   }
-  std::map<std::string_view, std::size_t> remarks;  // number of remarks by check
-  for (const Cause& cause : all.aside) {
+  std::map<std::string_view, std::size_t> remark_counts;  // number of remarks by check
+  for (const Cause& cause : all.remarks) {
     const judge::Verdict verdict = cause.group.first->verdict;
     if (verdict == judge::Verdict::waived || verdict == judge::Verdict::improved) {
       rest.push_back(&cause);
     } else {
-      ++remarks[judge::name_of(cause.group.first->check)];
+      ++remark_counts[judge::name_of(cause.group.first->check)];
     }
   }
-  text += bounds(all) + counted(remarks);
+  text += bounds_details(all) + counted(remark_counts);
   if (rest.empty()) return text;
   text += fmt::format("\n<details><summary>{} more</summary>\n\n", rest.size());
   for (const Cause* cause : rest) {
     const std::string next = item(*cause);
-    if (text.size() + next.size() > most_characters) {
+    if (text.size() + next.size() > max_characters) {
       text += "- …\n";
       break;
     }

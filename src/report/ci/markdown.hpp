@@ -16,7 +16,7 @@ namespace triptych::report {
 [[nodiscard]] std::string fenced(std::string_view command, std::string_view indent);
 
 // Returns a summary for a pull request. It has the same rows and causes as the end of the terminal
-// output (screen/last_screen.hpp). The worst causes are visible, and all others are folded. The
+// output (screen/summary_screen.hpp). The worst causes are visible, and all others are folded. The
 // summary always has fewer than 65,000 characters.
 [[nodiscard]] std::string markdown(std::span<const judge::GateResult> results);
 [[nodiscard]] std::string markdown(const judge::GateResult& result);

@@ -9,7 +9,7 @@
 namespace triptych::report {
 namespace {
 
-using comparison::Compared;
+using comparison::ComparedConfiguration;
 using comparison::Difference;
 using core::Json;
 
@@ -39,7 +39,7 @@ Json to_json(const judge::CodeTotal& total) {
   return json;
 }
 
-Json to_json(const Compared& compared, bool timed, const ComparisonCommand& command) {
+Json to_json(const ComparedConfiguration& compared, bool timed, const ComparisonCommand& command) {
   Json json{{"configuration", compared.key}};
   if (!compared.reason.empty()) json["reason"] = report::to_json(compared.reason);
   if (timed) {
@@ -50,8 +50,8 @@ Json to_json(const Compared& compared, bool timed, const ComparisonCommand& comm
   if (compared.blocks > 0) {
     json["clock"] = compared.clock == measure::SideClock::device ? "device" : "wall";
     json["frames_per_batch"] = compared.frames_per_batch;
-    if (compared.why_wall != comparison::WallClockCause::none) {
-      json["why_wall"] = comparison::name_of(compared.why_wall);
+    if (compared.wall_clock_cause != comparison::WallClockCause::none) {
+      json["why_wall"] = comparison::name_of(compared.wall_clock_cause);
     }
     if (compared.process_runs > 0) json["process_runs"] = compared.process_runs;
   }
@@ -154,7 +154,7 @@ Json to_json(const comparison::ComparisonResult& result, const ComparisonCommand
             {"headline", words::headline(result)},
             {"differences", all_of(result.device)},
             {"configurations", Json::array()}};
-  for (const Compared& compared : result.configurations) {
+  for (const ComparedConfiguration& compared : result.configurations) {
     json["configurations"].push_back(to_json(compared, result.timed, command));
   }
   return json;
@@ -164,7 +164,7 @@ Json to_json(const comparison::StoreDiff& diff) {
   Json json{{"exit_code", static_cast<int>(diff.exit_code())},
             {"only_one", Json::array()},
             {"devices", Json::array()}};
-  for (const comparison::OnlyOne& each : diff.only_one) {
+  for (const comparison::OneSidedEntry& each : diff.one_sided) {
     Json only{
         {"plan", each.plan}, {"side", measure::name_of(each.side)}, {"text", words::text_of(each)}};
     if (!each.device.empty()) only["device"] = each.device;

@@ -44,7 +44,7 @@ std::string as_json(const Map& map) {
   return core::json_text(Json(map));
 }
 
-Columns<RecordSource> what_it_was() {
+Columns<RecordSource> identity_columns() {
   const auto of = [](std::string Record::*member) {
     return [member](const RecordSource& s) { return text(s.record.*member); };
   };
@@ -84,18 +84,18 @@ Columns<RecordSource> what_it_was() {
 }
 
 // Returns the cell, or an empty cell if the record was not timed.
-Cell when_timed(const RecordSource& s, Cell cell) {
+Cell if_timed(const RecordSource& s, Cell cell) {
   return s.record.time_ns().empty() ? Cell() : std::move(cell);
 }
 
-Columns<RecordSource> what_it_took() {
+Columns<RecordSource> timing_columns() {
   return {
       {{"clock", "text", "",
         "the clock used for timing: device if the device clock is trusted, otherwise wall"},
-       [](const RecordSource& s) { return when_timed(s, std::string(s.record.clock())); }},
+       [](const RecordSource& s) { return if_timed(s, std::string(s.record.clock())); }},
       {{"frames", "integer", "frames",
         "number of timed frames (the column `clock` names their clock)"},
-       [](const RecordSource& s) { return when_timed(s, s.record.time_ns().size()); }},
+       [](const RecordSource& s) { return if_timed(s, s.record.time_ns().size()); }},
       {{"median_ns", "number", "ns", "median frame time (the column `clock` names the clock)"},
        [](const RecordSource& s) { return median(s.record.time_ns()); }},
       {{"median_wall_ns", "number", "ns", "median frame time on the wall clock"},
@@ -105,10 +105,10 @@ Columns<RecordSource> what_it_took() {
       {{"device_clock_trusted", "integer", "",
         "1 if the device clock passed its calibration against the wall clock, otherwise 0"},
        [](const RecordSource& s) {
-         return when_timed(s, std::uint64_t{s.record.device_clock_trusted});
+         return if_timed(s, std::uint64_t{s.record.device_clock_trusted});
        }},
       {{"warm_up_frames", "integer", "frames", "number of frames drawn before the timed frames"},
-       [](const RecordSource& s) { return when_timed(s, integer(s.record.warm_up_frames)); }},
+       [](const RecordSource& s) { return if_timed(s, integer(s.record.warm_up_frames)); }},
       {{"frames_per_100ms", "integer", "frames",
         "number of frames that can be drawn in 100 ms, estimated during warm-up"},
        [](const RecordSource& s) { return positive(s.record.frames_per_100ms); }},
@@ -234,8 +234,8 @@ Columns<ClockSource> clock_columns() {
 }
 
 Columns<RecordSource> record_columns(const RecordNames& names) {
-  Columns<RecordSource> columns = what_it_was();
-  for (Column<RecordSource>& each : what_it_took()) columns.push_back(std::move(each));
+  Columns<RecordSource> columns = identity_columns();
+  for (Column<RecordSource>& each : timing_columns()) columns.push_back(std::move(each));
   append(columns, names.factors, "factor_", {"", "text", "", "level of the factor "},
          &Record::factors);
   append(columns, names.cost, "cost_", {"", "integer", "", "cost of one frame: "}, &Record::cost);

@@ -72,11 +72,12 @@ struct ValueSource {
   std::uint64_t value;
 };
 
-constexpr const char* numbers = "number of the record; see the table records";
+constexpr const char* record_number_text = "number of the record; see the table records";
 
 Columns<SampleSource> sample_columns() {
   return {
-      {{"record", "integer", "", numbers}, [](const SampleSource& s) { return s.record; }},
+      {{"record", "integer", "", record_number_text},
+       [](const SampleSource& s) { return s.record; }},
       {{"clock", "text", "", "the clock: wall or device"},
        [](const SampleSource& s) { return std::string(s.clock); }},
       {{"frame", "integer", "", "zero-based index of the frame"},
@@ -88,7 +89,8 @@ Columns<SampleSource> sample_columns() {
 
 Columns<ValueSource> value_columns(const std::string& description) {
   return {
-      {{"record", "integer", "", numbers}, [](const ValueSource& s) { return s.record; }},
+      {{"record", "integer", "", record_number_text},
+       [](const ValueSource& s) { return s.record; }},
       {{"name", "text", "", "name of the counter or statistic"},
        [](const ValueSource& s) { return s.name; }},
       {{"count", "integer", "events", description}, [](const ValueSource& s) { return s.value; }},
@@ -97,7 +99,8 @@ Columns<ValueSource> value_columns(const std::string& description) {
 
 Columns<ValueSource> cost_columns() {
   return {
-      {{"record", "integer", "", numbers}, [](const ValueSource& s) { return s.record; }},
+      {{"record", "integer", "", record_number_text},
+       [](const ValueSource& s) { return s.record; }},
       {{"of", "text", "", "what was counted: frame, or prepare (data, pipelines and upload)"},
        [](const ValueSource& s) { return std::string(s.of); }},
       {{"part", "text", "",
@@ -120,7 +123,7 @@ struct CodeSource {
 
 Columns<CodeSource> code_columns() {
   return {
-      {{"record", "integer", "", numbers}, [](const CodeSource& s) { return s.record; }},
+      {{"record", "integer", "", record_number_text}, [](const CodeSource& s) { return s.record; }},
       {{"executable", "text", "", "shader stage or kernel"},
        [](const CodeSource& s) { return s.executable; }},
       {{"name", "text", "", "name of the statistic, as reported by the driver"},
@@ -137,7 +140,8 @@ struct ErrorSource {
 
 Columns<ErrorSource> error_columns() {
   return {
-      {{"record", "integer", "", numbers}, [](const ErrorSource& s) { return s.record; }},
+      {{"record", "integer", "", record_number_text},
+       [](const ErrorSource& s) { return s.record; }},
       {{"against", "text", "",
         "reference: the double-precision image with the same sample positions; limit: the image to "
         "which images converge as the step size approaches 0"},
@@ -160,7 +164,8 @@ struct EnergySource {
 
 Columns<EnergySource> energy_columns() {
   return {
-      {{"record", "integer", "", numbers}, [](const EnergySource& s) { return s.record; }},
+      {{"record", "integer", "", record_number_text},
+       [](const EnergySource& s) { return s.record; }},
       {{"meter", "text", "", "name of the meter"}, [](const EnergySource& s) { return s.meter; }},
       {{"energy_uj", "integer", "microjoules", "energy of one frame"},
        [](const EnergySource& s) { return s.microjoules; }},
@@ -273,8 +278,8 @@ std::vector<RunInStore> runs_of(const std::vector<const Store*>& stores, const s
     for (Run& run : store->runs()) {
       plans.insert(run.plan);
       if (!plan.empty() && run.plan != plan) continue;
-      const auto [at, fresh] = stores_of.emplace(run.id, store->file().string());
-      if (!fresh) {
+      const auto [at, is_new] = stores_of.emplace(run.id, store->file().string());
+      if (!is_new) {
         throw core::InputError(fmt::format(
             "run {} is in both {} and {}, so its records would be counted twice; export "
             "only one of these stores",
@@ -311,7 +316,7 @@ ExportedRows export_tables(const std::vector<const Store*>& stores, const Export
   std::filesystem::remove(dictionary_file);
   Tables tables(request.folder, names_of(runs), request);
   for (const auto& [store, run] : runs) {
-    if (request.begins) request.begins(run);
+    if (request.on_run) request.on_run(run);
     tables.add(*store, run);
   }
   ExportedRows rows;

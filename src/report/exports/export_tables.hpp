@@ -24,7 +24,7 @@ struct ExportRequest {
   std::string plan;  // empty: all plans
   std::filesystem::path folder;
   std::string made_by;                                  // the program and its version
-  std::function<void(const record::Run&)> begins = {};  // called before each run is written
+  std::function<void(const record::Run&)> on_run = {};  // called before each run is written
   // Returns the errors of a record's image. If the function is empty, the table of errors is not
   // written.
   std::function<std::vector<ImageError>(const record::Record&)> errors = {};

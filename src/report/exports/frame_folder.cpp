@@ -47,17 +47,17 @@ void write_image_files(const std::filesystem::path& folder, const std::string& n
   core::write_png(image, folder / (name + ".png"));
 }
 
-HeldAgainstTruth write_difference(const std::filesystem::path& folder, const core::Image& image,
-                                  const judge::TruthPair& pair) {
+ReferenceComparison write_difference(const std::filesystem::path& folder, const core::Image& image,
+                                     const judge::TruthPair& pair) {
   const accuracy::ImageComparison comparison = accuracy::compare(image, pair.truth, pair.bound);
   write_image_files(folder, "truth", pair.truth);
-  HeldAgainstTruth held{
+  ReferenceComparison result{
       judge::image_observation(comparison, image, pair.truth, judge::Against::reference)};
   if (!comparison.size_mismatch) {
     core::write_png(share_of_bound(image, pair.truth, pair.bound).image, folder / "difference.png");
-    held.has_difference = true;
+    result.has_difference = true;
   }
-  return held;
+  return result;
 }
 
 }  // namespace triptych::report

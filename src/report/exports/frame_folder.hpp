@@ -25,7 +25,7 @@ void write_image_files(const std::filesystem::path& folder, const std::string& n
                        const core::Image& image);
 
 // The result of comparing an image with its reference image.
-struct HeldAgainstTruth {
+struct ReferenceComparison {
   judge::Observation what;
   bool has_difference = false;  // whether difference.png was written; false if the sizes differ
   [[nodiscard]] bool right() const { return what.cause == judge::Cause::within_bound; }
@@ -34,8 +34,8 @@ struct HeldAgainstTruth {
 // Compares an image with its reference image. Writes truth.exr, truth.png, and difference.png,
 // which shows the error of each pixel as a share of its error bound (figures/share_of_bound.hpp).
 // Throws IoError.
-[[nodiscard]] HeldAgainstTruth write_difference(const std::filesystem::path& folder,
-                                                const core::Image& image,
-                                                const judge::TruthPair& pair);
+[[nodiscard]] ReferenceComparison write_difference(const std::filesystem::path& folder,
+                                                   const core::Image& image,
+                                                   const judge::TruthPair& pair);
 
 }  // namespace triptych::report

@@ -71,18 +71,17 @@ std::string colour_name(const accuracy::AccuracyFamily& family,
 // Returns nullopt for a case whose error or cost is 0 or unknown, because logarithmic axes cannot
 // show it.
 std::optional<Figure::Place> place_of(const accuracy::AccuracyCase& each, Cost cost) {
-  const auto paid = cost_of(each, cost);
-  if (!paid || !(*paid > 0) || !(each.rmse > 0)) return std::nullopt;
-  return Figure::Place{each.rmse, *paid};
+  const auto value = cost_of(each, cost);
+  if (!value || !(*value > 0) || !(each.rmse > 0)) return std::nullopt;
+  return Figure::Place{each.rmse, *value};
 }
 
 // Formats a goal (an error for which the report states the cost) as "1/255", or as "0.0001" if the
 // denominator would have many digits.
 std::string goal_name(double goal) {
-  constexpr double largest_denominator = 9999;
+  constexpr double max_denominator = 9999;
   const double denominator = std::round(1 / goal);
-  return denominator <= largest_denominator ? fmt::format("1/{:.0f}", denominator)
-                                            : short_number(goal);
+  return denominator <= max_denominator ? fmt::format("1/{:.0f}", denominator) : short_number(goal);
 }
 
 std::vector<std::string> factors_of(const accuracy::AccuracyScene& scene) {
@@ -94,11 +93,11 @@ std::vector<std::string> factors_of(const accuracy::AccuracyScene& scene) {
 
 // The figure of one scene on one device: a line for each family, the Pareto front in the colour of
 // the text, and the goals as dashed lines.
-class Diagram {
+class SceneFigure {
  public:
   // `all` contains the points of all diagrams that have the same axes as this one.
-  Diagram(const accuracy::AccuracyScene& scene, const std::string& title, Cost cost,
-          std::span<const Figure::Place> all)
+  SceneFigure(const accuracy::AccuracyScene& scene, const std::string& title, Cost cost,
+              std::span<const Figure::Place> all)
       : scene_(scene),
         cost_(cost),
         figure_(title + " on " + scene.device,
@@ -112,7 +111,7 @@ class Diagram {
 
   [[nodiscard]] Html svg() {
     find_front();
-    name_front();
+    collect_front_names();
     for (const accuracy::AccuracyFamily& family : scene_.families) add_family(family);
     if (figure_.empty()) return {};
     add_front();
@@ -135,19 +134,19 @@ class Diagram {
       return place ? std::optional(place->y) : std::nullopt;
     });
   }
-  void name_front() {
+  void collect_front_names() {
     for (const accuracy::AccuracyFamily& family : scene_.families) {
-      const bool in_front = std::ranges::any_of(family.members, [&](std::size_t i) {
+      const bool on_front = std::ranges::any_of(family.members, [&](std::size_t i) {
         return std::ranges::find(front_, i) != front_.end();
       });
-      if (!in_front || named_.size() == colour_count) continue;
-      named_.insert(colour_name(family, scene_.cases[family.members.front()]));
+      if (!on_front || front_names_.size() == colour_count) continue;
+      front_names_.insert(colour_name(family, scene_.cases[family.members.front()]));
     }
   }
   // If there are more families than colours, only families on the Pareto front get a colour.
   std::string_view colour(const std::string& name) {
-    const bool has_one = named_.contains(name) || colours_.contains(name);
-    if (!has_one && (scene_.families.size() > colour_count || name.empty())) return "soft";
+    const bool has_colour = front_names_.contains(name) || colours_.contains(name);
+    if (!has_colour && (scene_.families.size() > colour_count || name.empty())) return "soft";
     const auto [found, added] = colours_.try_emplace(name, colour_of(colours_.size()));
     if (added && !name.empty()) figure_.legend(name, {.colour = found->second});
     return found->second;
@@ -179,14 +178,14 @@ class Diagram {
     figure_.legend("the front", {.colour = "ink"}, true);
   }
   void add_goals() {
-    for (const double goal : accuracy::accuracy_goals) figure_.upright(goal, goal_name(goal));
+    for (const double goal : accuracy::accuracy_goals) figure_.vertical_line(goal, goal_name(goal));
   }
 
   const accuracy::AccuracyScene& scene_;
   Cost cost_;
   Figure figure_;
   std::vector<std::size_t> front_;  // sorted by cost
-  std::set<std::string> named_;
+  std::set<std::string> front_names_;
   std::map<std::string, std::string_view> colours_;
 };
 
@@ -197,8 +196,9 @@ std::string accuracy_title(std::span<const accuracy::AccuracyScene> scenes,
   std::string title = scene.data;
   for (const std::string& factor : factors_of(scene)) {
     const auto lacks = [&](const accuracy::AccuracyScene& other) {
-      const std::vector<std::string> theirs = factors_of(other);
-      return other.data == scene.data && std::ranges::find(theirs, factor) == theirs.end();
+      const std::vector<std::string> other_factors = factors_of(other);
+      return other.data == scene.data &&
+             std::ranges::find(other_factors, factor) == other_factors.end();
     };
     if (std::ranges::any_of(scenes, lacks)) title += ", " + factor;
   }
@@ -214,9 +214,9 @@ Html accuracy_chart(std::span<const accuracy::AccuracyScene> scenes, Cost cost) 
       if (const auto place = place_of(each, cost)) places[titles.back()].push_back(*place);
     }
   }
-  std::vector<Titled> all;
+  std::vector<TitledFigure> all;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    Html svg = Diagram(scenes[i], titles[i], cost, places[titles[i]]).svg();
+    Html svg = SceneFigure(scenes[i], titles[i], cost, places[titles[i]]).svg();
     if (!svg.empty()) all.push_back({titles[i] + " on " + scenes[i].device, std::move(svg)});
   }
   return all.empty() ? Html() : figures(all);

@@ -54,7 +54,7 @@ std::vector<AxisScale::Tick> AxisScale::ticks(int wanted) const {
   return all;
 }
 
-double widest_text(const std::vector<AxisScale::Tick>& ticks) {
+double widest_label(const std::vector<AxisScale::Tick>& ticks) {
   double width = 0;
   for (const auto& tick : ticks) width = std::max(width, width_of(tick.text));
   return width;

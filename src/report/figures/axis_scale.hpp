@@ -32,6 +32,6 @@ class AxisScale {
 };
 
 // Returns the width of the longest tick label.
-[[nodiscard]] double widest_text(const std::vector<AxisScale::Tick>& ticks);
+[[nodiscard]] double widest_label(const std::vector<AxisScale::Tick>& ticks);
 
 }  // namespace triptych::report

@@ -24,11 +24,11 @@ class Figure::Drawing {
  public:
   explicit Drawing(const Figure& figure)
       : figure_(figure),
-        across_(measure(figure.across_, &Place::x)),
-        up_(measure(figure.up_, &Place::y)),
-        across_ticks_(across_.ticks(static_cast<int>(figure.width_ / 70))),
-        up_ticks_(up_.ticks(static_cast<int>(figure.height_ / 40))) {
-    lay_out();
+        x_axis_(measure(figure.x_axis_, &Place::x)),
+        y_axis_(measure(figure.y_axis_, &Place::y)),
+        x_ticks_(x_axis_.ticks(static_cast<int>(figure.width_ / 70))),
+        y_ticks_(y_axis_.ticks(static_cast<int>(figure.height_ / 40))) {
+    compute_layout();
   }
 
   Html svg() {
@@ -57,7 +57,7 @@ class Figure::Drawing {
       high = std::max(high, value);
     }
     for (const Shape& shape : figure_.shapes_) {
-      if (shape.kind == Kind::upright) continue;
+      if (shape.kind == Kind::vertical_line) continue;
       for (const Place& place : shape.places) {
         low = std::min(low, place.*coordinate);
         high = std::max(high, place.*coordinate);
@@ -66,82 +66,83 @@ class Figure::Drawing {
     return {axis, low, high};
   }
 
-  void lay_out() {
-    left_ = widest_text(up_ticks_) + gap + (figure_.up_.title.empty() ? 4 : line_height + 4);
+  void compute_layout() {
+    left_ = widest_label(y_ticks_) + gap + (figure_.y_axis_.title.empty() ? 4 : line_height + 4);
     // Names that do not fit next to each other are rotated.
     const double band =
-        figure_.width_ / static_cast<double>(std::max<std::size_t>(across_ticks_.size(), 1));
-    const double widest = widest_text(across_ticks_);
-    turned_ = !figure_.across_.names.empty() && widest + 4 > band;
-    const double below = turned_ ? widest + gap : line_height + 2;
-    const double last = across_ticks_.empty() ? 0 : width_of(across_ticks_.back().text) / 2;
-    total_width_ = left_ + figure_.width_ + std::max(turned_ ? 0.0 : last, gap);
+        figure_.width_ / static_cast<double>(std::max<std::size_t>(x_ticks_.size(), 1));
+    const double widest = widest_label(x_ticks_);
+    rotated_ = !figure_.x_axis_.names.empty() && widest + 4 > band;
+    const double below = rotated_ ? widest + gap : line_height + 2;
+    const double last = x_ticks_.empty() ? 0 : width_of(x_ticks_.back().text) / 2;
+    total_width_ = left_ + figure_.width_ + std::max(rotated_ ? 0.0 : last, gap);
     place_legend();
     top_ = gap + legend_height_;
     total_height_ =
-        top_ + figure_.height_ + below + (figure_.across_.title.empty() ? 4 : line_height + 4);
+        top_ + figure_.height_ + below + (figure_.x_axis_.title.empty() ? 4 : line_height + 4);
   }
 
   void place_legend() {
     double x = left_;
     double row = 0;
     for (const Entry& entry : figure_.entries_) {
-      const std::string text = shortened(entry.text, longest_entry);
+      const std::string text = shortened(entry.text, max_legend_length);
       const double width = width_of(text) + 30;
       if (x > left_ && x + width > total_width_) {
         x = left_;
         ++row;
       }
       total_width_ = std::max(total_width_, x + width);
-      spots_.push_back({x, gap + row * line_height + 8});
+      legend_positions_.push_back({x, gap + row * line_height + 8});
       x += width;
     }
-    legend_height_ = spots_.empty() ? 0 : (row + 1) * line_height + 4;
+    legend_height_ = legend_positions_.empty() ? 0 : (row + 1) * line_height + 4;
   }
 
   [[nodiscard]] Html legend() const {
     Html text;
-    for (std::size_t i = 0; i < spots_.size(); ++i) {
-      const auto& [x, y] = spots_[i];
+    for (std::size_t i = 0; i < legend_positions_.size(); ++i) {
+      const auto& [x, y] = legend_positions_[i];
       const Entry& entry = figure_.entries_[i];
       text += entry.line
                   ? markup("<path {} d=\"M{:.1f} {:.1f}h14\"/>", line_attributes(entry.style), x, y)
                   : mark_element(x + 8, y, entry.style, {});
-      text += markup("<g>{}{}</g>", title_element(entry.text),
-                     text_element(x + 18, y + 4, "start", shortened(entry.text, longest_entry)));
+      text +=
+          markup("<g>{}{}</g>", title_element(entry.text),
+                 text_element(x + 18, y + 4, "start", shortened(entry.text, max_legend_length)));
     }
     return text;
   }
 
   [[nodiscard]] double x_of(double value) const {
-    return left_ + figure_.width_ * across_.share(value);
+    return left_ + figure_.width_ * x_axis_.share(value);
   }
   // Categories are listed from top to bottom, but numbers increase from bottom to top.
   [[nodiscard]] double y_of(double value) const {
-    const double share = up_.share(value);
-    return top_ + figure_.height_ * (figure_.up_.names.empty() ? 1 - share : share);
+    const double share = y_axis_.share(value);
+    return top_ + figure_.height_ * (figure_.y_axis_.names.empty() ? 1 - share : share);
   }
 
   [[nodiscard]] Html axes() const {
     const double bottom = top_ + figure_.height_;
     std::string grid;
     Html text;
-    double free_from = -std::numeric_limits<double>::infinity();
-    for (const auto& tick : across_ticks_) {
+    double next_free_x = -std::numeric_limits<double>::infinity();
+    for (const auto& tick : x_ticks_) {
       const double x = x_of(tick.at);
-      if (figure_.across_.names.empty())
+      if (figure_.x_axis_.names.empty())
         grid += fmt::format("M{:.1f} {:.1f}v{:.0f}", x, top_, figure_.height_);
       const double half = width_of(tick.text) / 2;
-      if (!turned_ && x - half < free_from) continue;  // the label does not fit
-      free_from = x + half + 4;
+      if (!rotated_ && x - half < next_free_x) continue;  // the label does not fit
+      next_free_x = x + half + 4;
       const Html more =
-          turned_ ? markup(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x + 4, bottom + 8) : Html();
-      text += named(tick, turned_ ? text_element(x + 4, bottom + 8, "end", tick.text, more)
-                                  : text_element(x, bottom + line_height, "middle", tick.text));
+          rotated_ ? markup(" transform=\"rotate(-90 {:.1f} {:.1f})\"", x + 4, bottom + 8) : Html();
+      text += named(tick, rotated_ ? text_element(x + 4, bottom + 8, "end", tick.text, more)
+                                   : text_element(x, bottom + line_height, "middle", tick.text));
     }
-    for (const auto& tick : up_ticks_) {
+    for (const auto& tick : y_ticks_) {
       const double y = y_of(tick.at);
-      if (figure_.up_.names.empty())
+      if (figure_.y_axis_.names.empty())
         grid += fmt::format("M{:.1f} {:.1f}h{:.0f}", left_, y, figure_.width_);
       text += named(tick, text_element(left_ - gap, y + 4, "end", tick.text));
     }
@@ -169,13 +170,13 @@ class Figure::Drawing {
 
   [[nodiscard]] Html titles() const {
     Html text;
-    if (!figure_.across_.title.empty()) {
+    if (!figure_.x_axis_.title.empty()) {
       text += text_element(left_ + figure_.width_ / 2, total_height_ - 5, "middle",
-                           title_of(figure_.across_), markup(" class=\"axis\""));
+                           title_of(figure_.x_axis_), markup(" class=\"axis\""));
     }
-    if (!figure_.up_.title.empty()) {
+    if (!figure_.y_axis_.title.empty()) {
       const double y = top_ + figure_.height_ / 2;
-      text += text_element(12, y, "middle", title_of(figure_.up_),
+      text += text_element(12, y, "middle", title_of(figure_.y_axis_),
                            markup(" class=\"axis\" transform=\"rotate(-90 12 {:.1f})\"", y));
     }
     return text;
@@ -192,10 +193,10 @@ class Figure::Drawing {
         return box_element(shape);
       case Kind::strokes:
         return strokes_element(shape);
-      case Kind::upright:
-        if (const double at = across_.share(first.x); at < 0 || at > 1)
+      case Kind::vertical_line:
+        if (const double at = x_axis_.share(first.x); at < 0 || at > 1)
           return {};  // outside the frame
-        label_upright(shape);
+        label_vertical_line(shape);
         return markup("<path {} d=\"M{:.1f} {:.1f}v{:.0f}\"/>", line_attributes(shape.style),
                       x_of(first.x), top_, figure_.height_);
       case Kind::label:
@@ -245,18 +246,18 @@ class Figure::Drawing {
     const double right = left_ + figure_.width_;
     if (x + width > right) x -= width + 14;
     const double y = std::clamp(y_of(shape.places[0].y), top_ + 8, top_ + figure_.height_ - 8) + 4;
-    if (x < left_ || !take({x, y - letter_height, width, letter_height})) return;
+    if (x < left_ || !reserve({x, y - letter_height, width, letter_height})) return;
     labels_ += text_element(x, y, "start", shape.text, markup(" class=\"on\""));
   }
 
   // Draws the label rotated, so that it ends at the top of the frame. The label is to the left of
   // the line if there is space.
-  void label_upright(const Shape& shape) {
+  void label_vertical_line(const Shape& shape) {
     if (shape.text.empty()) return;
     const double line = x_of(shape.places[0].x);
     const double x = line - letter_height < left_ ? line + letter_height - 1 : line - 3;
     const double y = top_ + 5;
-    if (!take({x - letter_height, y, letter_height, width_of(shape.text)})) return;
+    if (!reserve({x - letter_height, y, letter_height, width_of(shape.text)})) return;
     labels_ += text_element(x, y, "end", shape.text,
                             markup(" class=\"on\" transform=\"rotate(-90 {:.1f} {:.1f})\"", x, y));
   }
@@ -265,36 +266,36 @@ class Figure::Drawing {
     double x, y, width, height;
   };
   // Reserves an area for a label. Returns false if it overlaps another label.
-  bool take(const Area& area) {
-    const bool taken = std::ranges::any_of(labelled_, [&](const Area& other) {
+  bool reserve(const Area& area) {
+    const bool taken = std::ranges::any_of(label_areas_, [&](const Area& other) {
       return area.x < other.x + other.width && other.x < area.x + area.width &&
              area.y < other.y + other.height && other.y < area.y + area.height;
     });
-    if (!taken) labelled_.push_back(area);
+    if (!taken) label_areas_.push_back(area);
     return !taken;
   }
 
   const Figure& figure_;
-  AxisScale across_;
-  AxisScale up_;
-  std::vector<AxisScale::Tick> across_ticks_;
-  std::vector<AxisScale::Tick> up_ticks_;
+  AxisScale x_axis_;
+  AxisScale y_axis_;
+  std::vector<AxisScale::Tick> x_ticks_;
+  std::vector<AxisScale::Tick> y_ticks_;
   double left_ = 0;
   double top_ = 0;
   double total_width_ = 0;
   double total_height_ = 0;
   double legend_height_ = 0;
-  bool turned_ = false;
-  std::vector<Place> spots_;
-  std::vector<Area> labelled_;
+  bool rotated_ = false;
+  std::vector<Place> legend_positions_;
+  std::vector<Area> label_areas_;
   Html marks_;
   Html labels_;
 };
 
 Figure::Figure(std::string description, Axis across, Axis up, double width, double height)
     : description_(std::move(description)),
-      across_(std::move(across)),
-      up_(std::move(up)),
+      x_axis_(std::move(across)),
+      y_axis_(std::move(up)),
       width_(width),
       height_(height) {}
 
@@ -303,7 +304,7 @@ void Figure::add(Shape shape) {
     return std::isfinite(value) && (!axis.logarithmic || !axis.names.empty() || value > 0);
   };
   std::erase_if(shape.places, [&](const Place& place) {
-    return !has_place(across_, place.x) || !has_place(up_, place.y);
+    return !has_place(x_axis_, place.x) || !has_place(y_axis_, place.y);
   });
   const std::size_t needed = shape.kind == Kind::box ? 2 : 1;
   shape.series = series_;
@@ -329,8 +330,8 @@ void Figure::strokes(std::span<const double> across, double row, double half, co
   add(std::move(shape));
 }
 
-void Figure::upright(double across, std::string_view label) {
-  add({Kind::upright,
+void Figure::vertical_line(double across, std::string_view label) {
+  add({Kind::vertical_line,
        {{across, 1}},
        {.colour = "soft", .dashed = true, .width = 1},
        std::string(label)});
@@ -348,9 +349,9 @@ Html Figure::svg() const {
   return Drawing(*this).svg();
 }
 
-Html figures(std::span<const Titled> all) {
+Html figures(std::span<const TitledFigure> all) {
   Html text = markup("<div class=\"figures\">");
-  for (const Titled& each : all) {
+  for (const TitledFigure& each : all) {
     const Html title = each.title.empty() ? Html() : markup("<h4>{}</h4>", each.title);
     text += markup("<div class=\"plot\">{}{}</div>\n", title, each.svg);
   }

@@ -69,7 +69,7 @@ class Figure {
   void strokes(std::span<const double> across, double row, double half, const Style& style);
   // Adds a dashed vertical line from the bottom to the top, with a label next to it. The axis is
   // not extended to include it.
-  void upright(double across, std::string_view label = {});
+  void vertical_line(double across, std::string_view label = {});
   // Adds a label next to a point. It is left out if it would overlap another label.
   void label(Place at, std::string_view text);
   void legend(std::string_view text, const Style& style, bool line = false);
@@ -87,7 +87,7 @@ class Figure {
   [[nodiscard]] bool empty() const { return shapes_.empty(); }
 
  private:
-  enum class Kind { point, line, box, strokes, upright, label };
+  enum class Kind { point, line, box, strokes, vertical_line, label };
   struct Shape {
     Kind kind;
     std::vector<Place> places;
@@ -106,8 +106,8 @@ class Figure {
   void add(Shape shape);
 
   std::string description_;
-  Axis across_;
-  Axis up_;
+  Axis x_axis_;
+  Axis y_axis_;
   double width_;
   double height_;
   std::string series_;
@@ -115,12 +115,12 @@ class Figure {
   std::vector<Entry> entries_;
 };
 
-struct Titled {
+struct TitledFigure {
   std::string title;
   Html svg;
 };
 // Arranges figures next to each other, each with its title as a heading. On a narrow screen, the
 // figures wrap.
-[[nodiscard]] Html figures(std::span<const Titled> all);
+[[nodiscard]] Html figures(std::span<const TitledFigure> all);
 
 }  // namespace triptych::report

@@ -30,12 +30,13 @@ std::string Figure::csv() const {
     if (shape.series.empty() || (shape.kind != Kind::point && shape.kind != Kind::strokes))
       continue;
     for (const Place& place : shape.places) {
-      rows += row_of(shape.series, cell_of(across_, place.x), cell_of(up_, place.y), shape.text);
+      rows +=
+          row_of(shape.series, cell_of(x_axis_, place.x), cell_of(y_axis_, place.y), shape.text);
     }
   }
   if (rows.empty()) return {};
-  const std::string head = row_of(std::string("series"), or_else(across_.title, "x"),
-                                  or_else(up_.title, "y"), std::string("label"));
+  const std::string head = row_of(std::string("series"), or_else(x_axis_.title, "x"),
+                                  or_else(y_axis_.title, "y"), std::string("label"));
   return head + rows;
 }
 

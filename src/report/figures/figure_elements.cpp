@@ -44,8 +44,8 @@ double width_of(std::string_view text) {
   return letter * static_cast<double>(length_of(text));
 }
 
-std::string shortened(std::string_view text, std::size_t longest) {
-  if (length_of(text) <= longest) return std::string(text);
+std::string shortened(std::string_view text, std::size_t max_length) {
+  if (length_of(text) <= max_length) return std::string(text);
   const auto byte_of = [&](std::size_t character) {
     std::size_t at = 0;
     for (; at < text.size(); ++at) {
@@ -54,7 +54,7 @@ std::string shortened(std::string_view text, std::size_t longest) {
     }
     return at;
   };
-  const std::size_t half = longest / 2;
+  const std::size_t half = max_length / 2;
   return std::string(text.substr(0, byte_of(half))) + "…" +
          std::string(text.substr(byte_of(length_of(text) - half + 1)));
 }

@@ -13,14 +13,16 @@ namespace triptych::report {
 // letter.
 [[nodiscard]] double width_of(std::string_view text);
 
-// The maximum number of characters in a name next to an axis (longest_name) and in a legend
-// (longest_entry). The maximum for a legend is larger, because a long name gets its own line there.
-inline constexpr std::size_t longest_name = 34;
-inline constexpr std::size_t longest_entry = 64;
+// The maximum number of characters in a name next to an axis (max_name_length) and in a legend
+// (max_legend_length). The maximum for a legend is larger, because a long name gets its own line
+// there.
+inline constexpr std::size_t max_name_length = 34;
+inline constexpr std::size_t max_legend_length = 64;
 
 // Shortens text that is longer than `longest` characters. Removes the middle of the text, because
 // it is the least important part of a name.
-[[nodiscard]] std::string shortened(std::string_view text, std::size_t longest = longest_name);
+[[nodiscard]] std::string shortened(std::string_view text,
+                                    std::size_t max_length = max_name_length);
 
 // Returns a tooltip for the enclosing element, or nothing if `text` is empty.
 [[nodiscard]] Html title_element(std::string_view text);

@@ -20,7 +20,7 @@ double nice_step(double step) {
 }
 
 // The smallest number of ticks: a single tick does not show the scale of an axis.
-constexpr std::size_t least_ticks = 2;
+constexpr std::size_t min_ticks = 2;
 
 std::vector<double> linear_ticks(double low, double high, int wanted) {
   const double step = nice_step((high - low) / wanted);
@@ -29,7 +29,7 @@ std::vector<double> linear_ticks(double low, double high, int wanted) {
   for (double i = std::ceil((low - edge) / step); i * step <= high + edge; ++i) {
     all.push_back(i == 0 ? 0 : i * step);
   }
-  return all.size() < least_ticks ? linear_ticks(low, high, 2 * wanted) : all;
+  return all.size() < min_ticks ? linear_ticks(low, high, 2 * wanted) : all;
 }
 
 std::vector<double> powers(double low, double high, std::span<const double> factors, int every) {
@@ -58,7 +58,7 @@ std::vector<double> ticks(double low, double high, bool logarithmic, int wanted)
     // Shows every `every`-th power of ten, or more of them if too few lie on the axis.
     for (int every = static_cast<int>(std::ceil(decades / wanted)); every > 0; --every) {
       std::vector<double> all = powers(low, high, ones, every);
-      if (all.size() >= least_ticks) return all;
+      if (all.size() >= min_ticks) return all;
     }
   }
   std::vector<double> all = powers(low, high, ones, 1);

@@ -18,9 +18,9 @@ std::string whole_percent(double share) {
   return fmt::format("{:+.0f} %", 100 * share);
 }
 
-class Scatter {
+class ScatterDrawing {
  public:
-  explicit Scatter(const ScatterFigure& scatter) : scatter_(scatter) {
+  explicit ScatterDrawing(const ScatterFigure& scatter) : scatter_(scatter) {
     std::set<std::string> names;
     for (const auto& point : scatter.points) names.insert(point.technique);
     techniques_.assign(names.begin(), names.end());
@@ -41,7 +41,7 @@ class Scatter {
   }
 
   [[nodiscard]] Html deviations() const {
-    double largest = std::max(0.01, scatter_.shows_from.value_or(0));
+    double largest = std::max(0.01, scatter_.reporting_threshold.value_or(0));
     for (const auto& point : scatter_.points) {
       largest = std::max(largest, std::abs(point.deviation));
     }
@@ -52,10 +52,11 @@ class Scatter {
                    .low = -1.1 * largest,
                    .high = 1.1 * largest},
                   side, side);
-    add_rule(figure, 0, {.colour = "soft"});
-    if (scatter_.shows_from) {
-      add_rule(figure, *scatter_.shows_from, {.colour = "soft", .dashed = true});
-      figure.label({ends().first, *scatter_.shows_from}, "reporting threshold");
+    add_horizontal_line(figure, 0, {.colour = "soft"});
+    if (scatter_.reporting_threshold) {
+      add_horizontal_line(figure, *scatter_.reporting_threshold,
+                          {.colour = "soft", .dashed = true});
+      figure.label({x_range().first, *scatter_.reporting_threshold}, "reporting threshold");
     }
     for (const auto& point : scatter_.points) {
       figure.series(point.technique.empty() ? "configurations" : point.technique);
@@ -79,13 +80,13 @@ class Scatter {
     return fmt::format("{}: {:.4g} against {:.4g}, {:+.1f} %{}", point.name, point.up, point.across,
                        100 * point.deviation, flag);
   }
-  [[nodiscard]] std::pair<double, double> ends() const {
+  [[nodiscard]] std::pair<double, double> x_range() const {
     const auto [first, last] =
         std::ranges::minmax_element(scatter_.points, {}, &ScatterFigure::Point::across);
     return {first->across, last->across};
   }
-  void add_rule(Figure& figure, double deviation, const Style& style) const {
-    const auto [first, last] = ends();
+  void add_horizontal_line(Figure& figure, double deviation, const Style& style) const {
+    const auto [first, last] = x_range();
     figure.line(std::array{Figure::Place{first, deviation}, Figure::Place{last, deviation}}, style);
   }
   // Two points are enough, because the fitted line is straight on logarithmic axes.
@@ -95,7 +96,7 @@ class Scatter {
       return Figure::Place{x,
                            std::exp(scatter_.line->intercept + scatter_.line->slope * std::log(x))};
     };
-    const auto [first, last] = ends();
+    const auto [first, last] = x_range();
     figure.line(std::array{at(first), at(last)}, {.colour = "soft"}, "the fitted line");
   }
   void add_legend(Figure& figure) const {
@@ -115,9 +116,9 @@ class Scatter {
 
 Html scatter_chart(const ScatterFigure& scatter) {
   if (scatter.points.empty()) return {};
-  const Scatter drawn(scatter);
-  std::vector<Titled> all{{"", drawn.values()}};
-  if (scatter.line) all.push_back({"", drawn.deviations()});
+  const ScatterDrawing drawing(scatter);
+  std::vector<TitledFigure> all{{"", drawing.values()}};
+  if (scatter.line) all.push_back({"", drawing.deviations()});
   return figures(all);
 }
 

@@ -24,7 +24,7 @@ struct ScatterFigure {
   std::vector<Point> points;
   std::optional<Line> line = {};
   // The smallest deviation at which a single configuration is reported; drawn as a dashed line.
-  std::optional<double> shows_from = {};
+  std::optional<double> reporting_threshold = {};
 };
 
 // Returns two figures: one shows both values on logarithmic axes, with the fitted line; the other

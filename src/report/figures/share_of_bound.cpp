@@ -38,21 +38,21 @@ void paint(Image& shares, std::size_t i, double share) {
 }
 
 // A pixel whose error exceeds its bound.
-struct Beyond {
+struct WrongPixel {
   double share;
   ShareOfBound::Mark at;
 };
 
-std::vector<ShareOfBound::Mark> apart(std::vector<Beyond> beyond, int distance) {
-  constexpr std::size_t most = 12;
-  std::ranges::stable_sort(beyond, std::greater{}, &Beyond::share);
+std::vector<ShareOfBound::Mark> spread_out(std::vector<WrongPixel> beyond, int distance) {
+  constexpr std::size_t max_marks = 12;
+  std::ranges::stable_sort(beyond, std::greater{}, &WrongPixel::share);
   std::vector<ShareOfBound::Mark> marks;
-  for (const Beyond& each : beyond) {
-    const bool covered = std::ranges::any_of(marks, [&](const ShareOfBound::Mark& mark) {
+  for (const WrongPixel& each : beyond) {
+    const bool overlaps = std::ranges::any_of(marks, [&](const ShareOfBound::Mark& mark) {
       return std::hypot(mark.x - each.at.x, mark.y - each.at.y) < distance;
     });
-    if (!covered) marks.push_back(each.at);
-    if (marks.size() == most) break;
+    if (!overlaps) marks.push_back(each.at);
+    if (marks.size() == max_marks) break;
   }
   return marks;
 }
@@ -62,7 +62,7 @@ std::vector<ShareOfBound::Mark> apart(std::vector<Beyond> beyond, int distance) 
 ShareOfBound share_of_bound(const Image& image, const Image& truth, const Image& bound) {
   ShareOfBound result{.image = Image(image.width, image.height)};
   double largest = 0;
-  std::vector<Beyond> beyond;
+  std::vector<WrongPixel> beyond;
   for (std::size_t i = 0; i < result.image.rgba.size(); i += 4) {
     const double share = share_at(image, truth, bound, i);
     paint(result.image, i, share);
@@ -73,8 +73,8 @@ ShareOfBound share_of_bound(const Image& image, const Image& truth, const Image&
     result.x = pixel % image.width;
     result.y = pixel / image.width;
   }
-  result.ring = std::max(3, std::max(image.width, image.height) / 24);
-  result.marks = apart(std::move(beyond), 2 * result.ring);
+  result.ring_radius = std::max(3, std::max(image.width, image.height) / 24);
+  result.marks = spread_out(std::move(beyond), 2 * result.ring_radius);
   return result;
 }
 

@@ -23,7 +23,7 @@ struct ShareOfBound {
     int y;
   };
   std::vector<Mark> marks = {};
-  int ring = 0;  // radius in pixels
+  int ring_radius = 0;  // radius in pixels
 };
 
 [[nodiscard]] ShareOfBound share_of_bound(const core::Image& image, const core::Image& truth,

@@ -72,7 +72,7 @@ Html time_chart(const PlanData& plan) {
     for (const Row& row : scene.rows) names.insert(row.technique);
   }
   const std::vector<std::string> techniques(names.begin(), names.end());
-  std::vector<Titled> all;
+  std::vector<TitledFigure> all;
   for (const ChartScene& scene : scenes) all.push_back({scene.title, figure_of(scene, techniques)});
   return all.empty() ? Html() : figures(all);
 }

@@ -31,9 +31,9 @@ std::string driver_of(const Json& point) {
 
 // The axis covers at least this relative change in both directions, so that tiny changes do not
 // look like a trend.
-constexpr double least_span = 0.01;
+constexpr double min_axis_change = 0.01;
 
-// Returns an axis that covers the values of all devices, and at least `least_span` in both
+// Returns an axis that covers the values of all devices, and at least `min_axis_change` in both
 // directions.
 Axis axis_of(const Json& history) {
   Axis axis{.title = "relative to the first store"};
@@ -49,9 +49,9 @@ Axis axis_of(const Json& history) {
   const auto [low, high] = std::ranges::minmax(values);
   const double middle = (low + high) / 2;
   axis.contains = {low, high};
-  if (high - low >= 2 * least_span * middle) return axis;
-  axis.low = (1 - least_span) * middle;
-  axis.high = (1 + least_span) * middle;
+  if (high - low >= 2 * min_axis_change * middle) return axis;
+  axis.low = (1 - min_axis_change) * middle;
+  axis.high = (1 + min_axis_change) * middle;
   return axis;
 }
 

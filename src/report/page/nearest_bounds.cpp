@@ -32,11 +32,11 @@ std::vector<NearestBound> nearest_bounds(std::span<const judge::GateResult* cons
 }
 
 std::string nearest_text(std::span<const NearestBound> bounds) {
-  constexpr double sees_little = 0.01;
+  constexpr double weak_test_share = 0.01;
   if (bounds.empty()) return {};
   const auto [farthest, nearest] = std::ranges::minmax_element(bounds, {}, &NearestBound::share);
   std::string text = fmt::format("error / bound ≤ {:.3g}", nearest->share);
-  if (farthest->share < sees_little && farthest != nearest) {
+  if (farthest->share < weak_test_share && farthest != nearest) {
     text +=
         fmt::format(" (≤ {:.2g} on {} in {})", farthest->share, farthest->device, farthest->plan);
   }

@@ -47,7 +47,7 @@ PlanData data_of(const record::Store& store, const PlanReport& report, std::size
   return plan;
 }
 
-Html plan_part(const record::Store& store, const PlanReport& report, const PlanData& plan) {
+Html plan_section(const record::Store& store, const PlanReport& report, const PlanData& plan) {
   return markup(
              "<section id=\"{}\" data-kind=\"plan\" data-suite=\"{}\" data-device=\"{}\"><h2>{}"
              "</h2><p>{}</p>",
@@ -61,11 +61,12 @@ Html plan_part(const record::Store& store, const PlanReport& report, const PlanD
 
 // Shows the findings and the images: next to each other if an image is wrong, otherwise one below
 // the other.
-Html first_part(const Overview& all, const PanelSources& sources, std::span<const PlanData> plans) {
+Html findings_and_images(const Overview& all, const PanelSources& sources,
+                         std::span<const PlanData> plans) {
   const ImagesSection images = images_section(sources, plans);
-  const bool beside = !all.open.empty() && images.wrong;
-  return markup("<div class=\"{}\"><div>{}</div><div>{}</div></div>\n", beside ? "columns" : "",
-                findings_section(all, plans), images.html);
+  const bool side_by_side = !all.open.empty() && images.wrong;
+  return markup("<div class=\"{}\"><div>{}</div><div>{}</div></div>\n",
+                side_by_side ? "columns" : "", findings_section(all, plans), images.html);
 }
 
 }  // namespace
@@ -80,10 +81,10 @@ std::string page(const record::Store& store, const PageRequest& request) {
   const Overview all = overview(std::span<const judge::GateResult* const>(results));
   const JudgedImages judged = judged_images(all, plans);
   Html text = page_begin("Triptych report") + verdict_card(all, plans) + filters(plans) +
-              markup("<main>") + first_part(all, {store, request.truth, judged}, plans);
+              markup("<main>") + findings_and_images(all, {store, request.truth, judged}, plans);
   for (std::size_t i = 0; i < plans.size(); ++i)
-    text += plan_part(store, request.plans[i], plans[i]);
-  text += words_section(all);
+    text += plan_section(store, request.plans[i], plans[i]);
+  text += terms_section(all);
   const Html whole =
       without_repeated_images(text) + markup("</main>") + comparison_dialog() + page_end();
   return whole.text();

@@ -39,8 +39,8 @@ const accuracy::AccuracyFamily& family_of(const AccuracyScene& scene, std::size_
 
 // Returns the largest area (hypervolume) of a Pareto front on any device. Considers only scenes
 // with the same limit image (with exact ray integrals) as `scene`.
-const accuracy::FrontArea& widest(const std::vector<AccuracyScene>& scenes,
-                                  const AccuracyScene& scene) {
+const accuracy::FrontArea& largest_area(const std::vector<AccuracyScene>& scenes,
+                                        const AccuracyScene& scene) {
   const accuracy::FrontArea* best = &*scene.area;
   for (const AccuracyScene& other : scenes) {
     const bool comparable = other.limit == scene.limit && other.area.has_value();
@@ -54,7 +54,7 @@ void append_area(TableRow& row, const std::vector<AccuracyScene>& scenes,
   if (scene.area) {
     row.push_back(fmt::format("{:.1f}", scene.area->area));
     row.push_back(
-        fmt::format("{:.2f}", accuracy::equal_slowdown(widest(scenes, scene), *scene.area)));
+        fmt::format("{:.2f}", accuracy::equal_slowdown(largest_area(scenes, scene), *scene.area)));
   } else {
     row.insert(row.end(), 2, "");
   }
@@ -66,7 +66,7 @@ std::optional<double> instructions_of(const accuracy::AccuracyCase& each) {
 
 // Returns the cost of reaching the error `goal`: the time if times were measured, otherwise the
 // number of instructions.
-std::string to_error(const AccuracyScene& scene, double goal) {
+std::string cost_to_reach(const AccuracyScene& scene, double goal) {
   if (!scene.front.empty()) {
     const auto time = accuracy::time_to_error(scene.cases, scene.families, goal);
     return time ? duration(*time) : "not reached";
@@ -81,10 +81,10 @@ std::string to_error(const AccuracyScene& scene, double goal) {
 // Appends the number of configurations on the Pareto front and the number of dominated
 // configurations. The cost is the time or, if no time was measured, the number of instructions. The
 // cells are empty if neither was measured.
-void append_standing(TableRow& row, const AccuracyScene& scene) {
-  const auto add = [&](std::size_t front, std::size_t beaten) {
+void append_front_counts(TableRow& row, const AccuracyScene& scene) {
+  const auto add = [&](std::size_t front, std::size_t dominated) {
     row.push_back(fmt::to_string(front));
-    row.push_back(fmt::format("{} of {}", beaten, scene.cases.size()));
+    row.push_back(fmt::format("{} of {}", dominated, scene.cases.size()));
   };
   if (!scene.front.empty()) return add(scene.front.size(), scene.dominated.size());
   const auto front = accuracy::pareto_front(scene.cases, instructions_of);
@@ -104,10 +104,10 @@ Html summary_table(const std::vector<AccuracyScene>& scenes) {
     TableRow row{accuracy_title(scenes, scene), scene.device,
                  order_text(family_of(scene, best).order), error_text(scene.cases[best].rmse)};
     for (const double goal : accuracy::accuracy_goals) {
-      row.push_back(to_error(scene, goal));
+      row.push_back(cost_to_reach(scene, goal));
     }
     append_area(row, scenes, scene);
-    append_standing(row, scene);
+    append_front_counts(row, scene);
     rows.push_back(std::move(row));
   }
   return table(rows);
@@ -132,9 +132,10 @@ std::string level(const accuracy::AccuracyCase& each, const std::string& factor)
 }
 
 // Writes the rows about the contributions to the error, for one scene on one device.
-class Parts {
+class ErrorContributions {
  public:
-  Parts(const std::vector<AccuracyScene>& scenes, const AccuracyScene& scene, Rows& rows)
+  ErrorContributions(const std::vector<AccuracyScene>& scenes, const AccuracyScene& scene,
+                     Rows& rows)
       : scenes_(scenes), scene_(scene), title_(accuracy_title(scenes, scene)), rows_(rows) {}
 
   void append() {
@@ -178,9 +179,9 @@ class Parts {
   Rows& rows_;
 };
 
-Html parts_table(const std::vector<AccuracyScene>& scenes) {
+Html contributions_table(const std::vector<AccuracyScene>& scenes) {
   Rows rows{{"scene", "device", "change", "RMSE before", "RMSE", "largest error", "time"}};
-  for (const AccuracyScene& scene : scenes) Parts(scenes, scene, rows).append();
+  for (const AccuracyScene& scene : scenes) ErrorContributions(scenes, scene, rows).append();
   return table(rows);
 }
 
@@ -199,12 +200,12 @@ Html dominated_table(const std::vector<AccuracyScene>& scenes) {
 
 // A kind of cost other than time. It is plotted if it was measured. If there is a title, the plot
 // is folded under this title.
-struct Beside {
+struct CostChart {
   Cost cost;
   std::string_view title;
   std::string_view text;
 };
-constexpr Beside beside_time[]{
+constexpr CostChart cost_charts[]{
     {Cost::samples, "", "Error against the number of samples, which is the same in every run."},
     {Cost::instructions, "",
      "Error against the number of instructions per frame, in device code and in the driver."},
@@ -220,9 +221,9 @@ constexpr Beside beside_time[]{
      "also measure "
      "idle power and other programs."}};
 
-Html charts_beside(const std::vector<AccuracyScene>& scenes) {
+Html other_cost_charts(const std::vector<AccuracyScene>& scenes) {
   Html text;
-  for (const auto& [cost, title, sentence] : beside_time) {
+  for (const auto& [cost, title, sentence] : cost_charts) {
     const Html chart = accuracy_chart(scenes, cost);
     if (chart.empty()) continue;
     const Html body = markup("<p>{}</p>{}", sentence, chart);
@@ -251,10 +252,10 @@ Html accuracy_section(const PlanData& plan) {
           "row. The slowdown is based on the times of one run and "
           "does not affect the verdict.</p>") +
       summary_table(scenes);
-  text += accuracy_chart(scenes, Cost::time) + charts_beside(scenes);
-  text +=
-      folded("Orders of convergence of all families", order_table(scenes)) +
-      folded("Contributions to the error: one factor is changed at a time", parts_table(scenes));
+  text += accuracy_chart(scenes, Cost::time) + other_cost_charts(scenes);
+  text += folded("Orders of convergence of all families", order_table(scenes)) +
+          folded("Contributions to the error: one factor is changed at a time",
+                 contributions_table(scenes));
   const bool timed =
       std::ranges::any_of(scenes, [](const AccuracyScene& scene) { return !scene.front.empty(); });
   if (timed) text += folded("Dominated configurations", dominated_table(scenes));

@@ -80,7 +80,7 @@ Html cost_bars(const PlanData& plan) {
   std::ranges::stable_sort(changed, std::greater{},
                            [](const Change& each) { return std::abs(each.share); });
   constexpr std::size_t shown = 12;
-  const Html told = markup(
+  const Html summary = markup(
       "<p>{} of {} frames do not execute the stored number of instructions{}.</p>\n",
       changed.size(), all.size(),
       changed.size() > shown ? fmt::format("; the table shows the {} largest changes", shown) : "");
@@ -92,7 +92,7 @@ Html cost_bars(const PlanData& plan) {
                     counts_of(*each.finding, "device_code"), counts_of(*each.finding, "driver"),
                     percent(each.share), bar(each.share, std::abs(changed.front().share))});
   }
-  return told + table(rows, "bars");
+  return summary + table(rows, "bars");
 }
 
 std::string value_text(const std::optional<double>& value) {

@@ -21,7 +21,7 @@ using record::Check;
 
 // Returns the sum of a statistic over the executables of a configuration. For occupancy, returns
 // the smallest value instead, because the executable with the fewest waves hides the least latency.
-std::optional<double> in_all(const record::Code& code, std::string_view name) {
+std::optional<double> combined_statistic(const record::Code& code, std::string_view name) {
   std::optional<double> all;
   for (const auto& [executable, what] : code) {
     for (const auto& [driver_name, value] : what.statistics) {
@@ -36,7 +36,7 @@ std::optional<double> in_all(const record::Code& code, std::string_view name) {
 Html cell_of(const record::Code& code) {
   Html cell;
   const auto add = [&](std::string_view name, std::string_view unit) {
-    const auto value = in_all(code, name);
+    const auto value = combined_statistic(code, name);
     if (value) cell += markup("<div>{:g} {}</div>", *value, unit);
   };
   add("instructions", "instructions");
@@ -141,9 +141,9 @@ Html disassembly_of(const record::Store& store, const judge::Finding& finding,
   return html;
 }
 
-Html changed_code(const record::Store& store, const PlanData& plan) {
+Html changed_disassembly(const record::Store& store, const PlanData& plan) {
   Html html;
-  int without = 0;
+  int without_earlier = 0;
   EarlierRuns earlier(store, plan);
   for (const judge::Finding& finding : plan.verdict->findings) {
     if (finding.check != Check::code || finding.verdict != judge::Verdict::regression) continue;
@@ -151,17 +151,17 @@ Html changed_code(const record::Store& store, const PlanData& plan) {
     if (record == nullptr || record->code.empty()) continue;
     const Html both = disassembly_of(store, finding, *record, earlier);
     if (both.empty()) {
-      ++without;
+      ++without_earlier;
     } else {
       html += folded(markup("{}, {}", finding.device, breakable(finding.configuration)), both);
     }
   }
-  if (without > 0) {
+  if (without_earlier > 0) {
     html += markup(
         "<p>The store contains no earlier disassembly for {} of the findings. To see the old and "
         "the new disassembly, compare with the previous build (<code>triptych gate --base "
         "PROGRAM</code>), or first run the plan with the previous build and the same store.</p>",
-        without);
+        without_earlier);
   }
   return html.empty() ? html : markup("<h3>Disassembly of code that got worse</h3>") + html;
 }
@@ -171,7 +171,7 @@ Html changed_code(const record::Store& store, const PlanData& plan) {
 Html code_section(const record::Store& store, const PlanData& plan) {
   const Html statistics = statistics_table(plan);
   if (statistics.empty()) return {};
-  return changed_code(store, plan) +
+  return changed_disassembly(store, plan) +
          folded(markup("Code statistics by technique and device"), statistics);
 }
 

@@ -18,10 +18,10 @@
 namespace triptych::report {
 namespace {
 
-std::vector<SameBits> grouped_by_bits(const std::vector<const record::Record*>& records) {
-  std::vector<SameBits> groups;
+std::vector<IdenticalImages> grouped_by_image(const std::vector<const record::Record*>& records) {
+  std::vector<IdenticalImages> groups;
   for (const record::Record* record : records) {
-    const auto same = std::ranges::find_if(groups, [&](const SameBits& group) {
+    const auto same = std::ranges::find_if(groups, [&](const IdenticalImages& group) {
       return group.front()->device == record->device && group.front()->image == record->image &&
              group.front()->outcome == record->outcome &&
              record::is_same_kind(group.front()->reason, record->reason);
@@ -32,7 +32,8 @@ std::vector<SameBits> grouped_by_bits(const std::vector<const record::Record*>& 
       groups.push_back({record});
     }
   }
-  std::ranges::stable_sort(groups, {}, [](const SameBits& group) { return group.front()->device; });
+  std::ranges::stable_sort(groups, {},
+                           [](const IdenticalImages& group) { return group.front()->device; });
   return groups;
 }
 
@@ -52,7 +53,7 @@ void append_scenes(std::vector<Scene>& scenes, const PanelSources& sources, cons
   std::vector<std::string> order;
   std::map<std::string, std::vector<const record::Record*>> by_scene;
   for (const record::Record& record : plan.records) {
-    if (!has_tile(record)) continue;
+    if (!has_panel(record)) continue;
     auto& records = by_scene[record.scene];
     if (records.empty()) order.push_back(record.scene);
     records.push_back(&record);
@@ -62,7 +63,7 @@ void append_scenes(std::vector<Scene>& scenes, const PanelSources& sources, cons
     std::ranges::stable_sort(records, {}, [](const record::Record* r) { return r->technique; });
     Scene scene{(name_plan ? plan.name + ": " : "") + image_title(plan, *records.front()), {}};
     const PanelScene of{sources, plan, records, scene.title, scenes.size()};
-    for (const SameBits& group : grouped_by_bits(records)) {
+    for (const IdenticalImages& group : grouped_by_image(records)) {
       scene.panels.push_back(panel_of(of, group));
     }
     std::ranges::stable_sort(scene.panels, std::greater{}, [](const Panel& panel) {
@@ -72,37 +73,37 @@ void append_scenes(std::vector<Scene>& scenes, const PanelSources& sources, cons
   }
 }
 
-Html part(const Scene& scene, std::size_t from, std::size_t to) {
+Html panels_html(const Scene& scene, std::size_t from, std::size_t to) {
   Html text;
   for (std::size_t i = from; i < to; ++i) text += scene.panels[i].html;
   return text;
 }
 
-constexpr std::size_t open_scenes = 6;
+constexpr std::size_t max_visible_scenes = 6;
 // The maximum number of panels that are not folded in a scene with a wrong image.
-constexpr std::size_t open_panels = 4;
+constexpr std::size_t max_visible_panels = 4;
 
 Html scene_part(const Scene& scene, std::size_t from, std::size_t to) {
   if (from >= to) return {};
   return markup("<div class=\"scene\"><h3>{}</h3><div class=\"panels{}\">{}</div></div>\n",
                 breakable(scene.title), scene.panels[from].wrong ? " wrong" : "",
-                part(scene, from, to));
+                panels_html(scene, from, to));
 }
 
 // Shows, for each scene, the image whose error comes closest to its bound. Used if no image is
 // wrong.
-Html one_of_each(std::span<const Scene> scenes) {
+Html one_image_per_scene(std::span<const Scene> scenes) {
   Html text = markup("<div class=\"panels\">");
   for (const Scene& scene : scenes) {
     text += markup("<div class=\"scene\"><h3>{}</h3>{}</div>", breakable(scene.title),
-                   part(scene, 0, 1));
+                   panels_html(scene, 0, 1));
   }
   return text + markup("</div>\n");
 }
 
 }  // namespace
 
-bool has_tile(const record::Record& record) {
+bool has_panel(const record::Record& record) {
   return !record.image.empty() || (record.outcome != record::Outcome::measured &&
                                    record.outcome != record::Outcome::skipped);
 }
@@ -120,7 +121,7 @@ ImagesSection images_section(const PanelSources& sources, std::span<const PlanDa
       "as a share of the pixel’s bound: 0 <span class=\"ramp\"></span> the bound, <span "
       "class=\"beyond\"></span> beyond the bound. Rings mark the worst pixels beyond the "
       "bound.</p>");
-  const std::size_t shown = std::min(open_scenes, scenes.size());
+  const std::size_t shown = std::min(max_visible_scenes, scenes.size());
   const bool any_wrong = scenes.front().wrong();
   Html rest;
   std::size_t left = 0;
@@ -129,13 +130,13 @@ ImagesSection images_section(const PanelSources& sources, std::span<const PlanDa
     std::size_t open = i < shown && !any_wrong ? 1 : 0;
     if (i < shown && scene.wrong()) {
       open = static_cast<std::size_t>(std::ranges::count(scene.panels, true, &Panel::wrong));
-      open = std::min(open, open_panels);
+      open = std::min(open, max_visible_panels);
       text += scene_part(scene, 0, open);
     }
     rest += scene_part(scene, open, scene.panels.size());
     left += scene.panels.size() - open;
   }
-  if (!any_wrong) text += one_of_each(std::span(scenes).first(shown));
+  if (!any_wrong) text += one_image_per_scene(std::span(scenes).first(shown));
   return {text + folded(fmt::format("{} more images", left), rest), any_wrong};
 }
 

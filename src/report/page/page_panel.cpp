@@ -19,7 +19,7 @@ namespace {
 
 using core::Image;
 
-std::vector<std::string> techniques_of(const SameBits& group) {
+std::vector<std::string> techniques_of(const IdenticalImages& group) {
   std::vector<std::string> names;
   for (const record::Record* record : group) {
     if (names.empty() || names.back() != record->technique) names.push_back(record->technique);
@@ -29,29 +29,31 @@ std::vector<std::string> techniques_of(const SameBits& group) {
 
 // Describes how an image was drawn. Lists only factors that have fewer levels in the group than in
 // the scene, because the other factors do not distinguish the image from other images of the scene.
-// The technique is left out, because titled() states it.
-std::vector<std::string> made_by(const SameBits& group, const PanelScene& scene) {
-  std::map<std::string, std::set<std::string>> seen;
-  std::map<std::string, std::set<std::string>> here;
+// The technique is left out, because panel_html() states it.
+std::vector<std::string> distinguishing_factors(const IdenticalImages& group,
+                                                const PanelScene& scene) {
+  std::map<std::string, std::set<std::string>> in_scene;
+  std::map<std::string, std::set<std::string>> in_group;
   for (const record::Record* record : scene.records) {
-    for (const auto& [factor, level] : record->factors) seen[factor].insert(level);
+    for (const auto& [factor, level] : record->factors) in_scene[factor].insert(level);
   }
   for (const record::Record* record : group) {
-    for (const auto& [factor, level] : record->factors) here[factor].insert(level);
+    for (const auto& [factor, level] : record->factors) in_group[factor].insert(level);
   }
   std::vector<std::string> differences;
-  for (const auto& [factor, levels] : here) {
-    if (factor == "technique" || levels.size() == seen[factor].size()) continue;
+  for (const auto& [factor, levels] : in_group) {
+    if (factor == "technique" || levels.size() == in_scene[factor].size()) continue;
     differences.push_back(fmt::format("{}: {}", factor, fmt::join(levels, ", ")));
   }
   return differences;
 }
 
 // Returns a name that distinguishes the image from the other images of the scene.
-std::string name_of(const PanelScene& scene, const SameBits& group) {
+std::string name_of(const PanelScene& scene, const IdenticalImages& group) {
   std::string name =
       fmt::format("{}, {}", group.front()->device, fmt::join(techniques_of(group), ", "));
-  for (const std::string& difference : made_by(group, scene)) name += ", " + difference;
+  for (const std::string& difference : distinguishing_factors(group, scene))
+    name += ", " + difference;
   return name;
 }
 
@@ -78,7 +80,7 @@ Html ringed(const Html& image, const ShareOfBound& shares) {
   for (const ShareOfBound::Mark& mark : shares.marks) {
     for (const char* layer : {"under", "over"}) {
       rings += markup("<circle class=\"{}\" cx=\"{}.5\" cy=\"{}.5\" r=\"{}\"/>", layer, mark.x,
-                      mark.y, shares.ring);
+                      mark.y, shares.ring_radius);
     }
   }
   return markup(
@@ -92,7 +94,8 @@ Html figure(const Html& content, std::string_view caption) {
 
 // Returns the beginning of a panel, with the attributes used by the filters and by the comparison
 // of images, and with the anchors for links.
-Html opening(const PanelScene& scene, const SameBits& group, const ShareOfBound* shares) {
+Html panel_start(const PanelScene& scene, const IdenticalImages& group,
+                 const ShareOfBound* shares) {
   Html ids;
   std::set<std::string_view> checks;
   for (const record::Record* record : group) {
@@ -113,7 +116,7 @@ Html opening(const PanelScene& scene, const SameBits& group, const ShareOfBound*
   return text + markup(">") + ids;
 }
 
-Html finding_link(const PanelScene& scene, const SameBits& group) {
+Html finding_link(const PanelScene& scene, const IdenticalImages& group) {
   for (const record::Record* record : group) {
     const auto found =
         scene.sources.judged.find(image_id(scene.plan, record->device, record->configuration));
@@ -125,17 +128,19 @@ Html finding_link(const PanelScene& scene, const SameBits& group) {
 
 // Returns a whole panel. `about` contains the verdict on the image; a description of how the image
 // was drawn follows it.
-Html titled(const PanelScene& scene, const SameBits& group, const Html& figures, const Html& about,
-            const ShareOfBound* shares = nullptr) {
+Html panel_html(const PanelScene& scene, const IdenticalImages& group, const Html& figures,
+                const Html& about, const ShareOfBound* shares = nullptr) {
   const std::vector<std::string> techniques = techniques_of(group);
-  std::string made = fmt::format("technique: {}", fmt::join(techniques, ", "));
-  if (techniques.size() > 1) made += ": bit-identical images";
-  for (const std::string& difference : made_by(group, scene)) made += "; " + difference;
-  return opening(scene, group, shares) +
+  std::string description = fmt::format("technique: {}", fmt::join(techniques, ", "));
+  if (techniques.size() > 1) description += ": bit-identical images";
+  for (const std::string& difference : distinguishing_factors(group, scene))
+    description += "; " + difference;
+  return panel_start(scene, group, shares) +
          markup(
              "<h4>{}</h4><div class=\"triple\">{}</div><p class=\"system\">{}{}<br>{}</p>"
              "</section>\n",
-             breakable(group.front()->device), figures, about, finding_link(scene, group), made);
+             breakable(group.front()->device), figures, about, finding_link(scene, group),
+             description);
 }
 
 Html verdict_text(const accuracy::ImageComparison& result, const ShareOfBound& shares) {
@@ -162,28 +167,29 @@ Html tile(const record::Record& record) {
 
 }  // namespace
 
-Panel panel_of(const PanelScene& scene, const SameBits& group) {
+Panel panel_of(const PanelScene& scene, const IdenticalImages& group) {
   const record::Record& record = *group.front();
   const auto found = truth_or_reason(scene.sources, record);
   const auto* pair = std::get_if<judge::TruthPair>(&found);
   const Html reference =
       pair ? figure(image_tag(pair->truth, "the reference image"), "the reference image") : Html();
   if (record.image.empty()) {
-    return {.html = titled(scene, group, reference + tile(record),
+    return {
+        .html = panel_html(scene, group, reference + tile(record),
                            markup("<b class=\"regression\">{}</b>", words::text_of(record.reason))),
-            .wrong = true,
-            .drawn = false};
+        .wrong = true,
+        .drawn = false};
   }
   const std::string name = name_of(scene, group);
   const Image image = scene.sources.store.decoded_image(record.image);
   const Html drawn = figure(image_tag(image, name), record.device);
   if (pair == nullptr) {
-    return {.html = titled(scene, group, drawn, markup("{}", std::get<std::string>(found)))};
+    return {.html = panel_html(scene, group, drawn, markup("{}", std::get<std::string>(found)))};
   }
   const accuracy::ImageComparison result = accuracy::compare(image, pair->truth, pair->bound);
   if (result.size_mismatch) {
-    return {.html = titled(scene, group, reference + drawn,
-                           markup("<b class=\"regression\">wrong size</b>")),
+    return {.html = panel_html(scene, group, reference + drawn,
+                               markup("<b class=\"regression\">wrong size</b>")),
             .wrong = true};
   }
   ShareOfBound shares = share_of_bound(image, pair->truth, pair->bound);
@@ -193,8 +199,8 @@ Panel panel_of(const PanelScene& scene, const SameBits& group) {
   }
   const Html difference = figure(
       ringed(image_tag(shares.image, "the difference image of " + name), shares), "the difference");
-  return {.html = titled(scene, group, reference + drawn + difference, verdict_text(result, shares),
-                         &shares),
+  return {.html = panel_html(scene, group, reference + drawn + difference,
+                             verdict_text(result, shares), &shares),
           .wrong = !result.within_bound(),
           .ratio = result.worst.ratio};
 }

@@ -11,7 +11,7 @@
 namespace triptych::report {
 
 // The records of one device whose images are bit-identical.
-using SameBits = std::vector<const record::Record*>;
+using IdenticalImages = std::vector<const record::Record*>;
 
 // The data that all panels of a scene have in common. Refers to data that the caller owns.
 struct PanelScene {
@@ -29,6 +29,6 @@ struct Panel {
   double ratio = 0;  // the error of the worst pixel divided by its bound
 };
 
-[[nodiscard]] Panel panel_of(const PanelScene& scene, const SameBits& group);
+[[nodiscard]] Panel panel_of(const PanelScene& scene, const IdenticalImages& group);
 
 }  // namespace triptych::report

@@ -26,12 +26,12 @@ struct PlanData {
 };
 
 // The findings about an image.
-struct Judged {
+struct JudgedImage {
   std::set<std::string_view> checks;  // the checks that judged the image
   // Element id of the first cause that needs attention; empty if there is none.
   std::string cause;
 };
-using JudgedImages = std::map<std::string, Judged>;  // the key is image_id()
+using JudgedImages = std::map<std::string, JudgedImage>;  // the key is image_id()
 [[nodiscard]] JudgedImages judged_images(const Overview& all, std::span<const PlanData> plans);
 
 struct PanelSources {
@@ -56,11 +56,11 @@ struct ImagesSection {
                                            std::span<const PlanData> plans);
 // Returns whether the page has a panel for the record. The panel shows the image of the record, or
 // states why there is none.
-[[nodiscard]] bool has_tile(const record::Record& record);
+[[nodiscard]] bool has_panel(const record::Record& record);
 // Returns a dialog that compares two images of a scene with a slider. The script opens it.
 [[nodiscard]] Html comparison_dialog();
 // Returns the definitions of the terms on the page, and the documentation page for each check.
-[[nodiscard]] Html words_section(const Overview& all);
+[[nodiscard]] Html terms_section(const Overview& all);
 // Returns the devices of one plan.
 [[nodiscard]] Html devices_section(const PlanData& plan);
 // Returns the values that differ from the stored values, by check, and the changes in cost and time

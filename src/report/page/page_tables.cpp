@@ -41,7 +41,7 @@ Html clock_text(const std::vector<record::ClockTrust>& clocks) {
 }
 
 // Returns the records that were timed and did not reuse the frames of another configuration.
-std::vector<const record::Record*> measured(const PlanData& plan) {
+std::vector<const record::Record*> timed_records(const PlanData& plan) {
   std::vector<const record::Record*> records;
   for (const record::Record& record : plan.records) {
     if (record.outcome == record::Outcome::measured && record.same_as.empty() &&
@@ -53,12 +53,12 @@ std::vector<const record::Record*> measured(const PlanData& plan) {
 }
 
 // Returns a clock that timed both records, because times from different clocks are never compared.
-std::string_view clock_of_both(const record::Record& a, const record::Record& b) {
+std::string_view common_clock(const record::Record& a, const record::Record& b) {
   return a.clock() == b.clock() ? a.clock() : "wall";
 }
 
 // Returns a table of the records that reused the frames of another configuration, with the reasons.
-Html taken_over(const PlanData& plan) {
+Html reused_frames(const PlanData& plan) {
   Rows rows{{"configuration", "device", "same frames as", "reason"}};
   for (const record::Record& record : plan.records) {
     if (record.same_as.empty()) continue;
@@ -73,7 +73,7 @@ Html taken_over(const PlanData& plan) {
 
 // Returns whether the technique only fetches memory, like speed_of_light, so that its time is a
 // lower bound for the times of other techniques.
-bool is_bound(const record::Record& record) {
+bool is_speed_of_light(const record::Record& record) {
   return !record::has_image(record) && record.code.empty();
 }
 
@@ -81,7 +81,7 @@ bool is_bound(const record::Record& record) {
 
 Html devices_section(const PlanData& plan) {
   Rows rows{{"device", "name", "driver", "API"}};
-  Rows witnesses{{"device", "clock", "driver's statistics", "CPU features, environment"}};
+  Rows calibration_rows{{"device", "clock", "driver's statistics", "CPU features, environment"}};
   for (const auto& [device, clocks] : plan.devices) {
     Html environment = markup("{}", device.cpu_features);
     for (const auto& [name, value] : device.environment) {
@@ -89,14 +89,15 @@ Html devices_section(const PlanData& plan) {
     }
     rows.push_back({device.id, device.name + " (" + device.vendor + ")", device.driver_version,
                     device.api_version});
-    witnesses.push_back({device.id, clock_text(clocks), calibration_text(device), environment});
+    calibration_rows.push_back(
+        {device.id, clock_text(clocks), calibration_text(device), environment});
   }
   return folded("Devices: drivers, calibration of clocks and statistics, environment variables",
-                table(rows) + table(witnesses));
+                table(rows) + table(calibration_rows));
 }
 
 Html times_section(const PlanData& plan) {
-  const auto records = measured(plan);
+  const auto records = timed_records(plan);
   if (records.empty()) return {};
   Rows rows{{"scene", "technique", "device", "clock", "minimum", "25 %", "median", "75 %", "90 %",
              "maximum", "back to back", "preparation"}};
@@ -116,23 +117,23 @@ Html times_section(const PlanData& plan) {
                        "back” is the mean wall-clock time per frame in a loop that draws one frame "
                        "after the other and is timed as a whole.</p>") +
                     time_chart(plan) + folded("Table of times", table(rows, "times")) +
-                    taken_over(plan));
+                    reused_frames(plan));
 }
 
 Html speed_of_light_section(const PlanData& plan) {
   // The records of speed_of_light, by device and scene.
   std::map<std::pair<std::string, std::string>, const record::Record*> bounds;
-  for (const record::Record* record : measured(plan)) {
-    if (is_bound(*record)) {
+  for (const record::Record* record : timed_records(plan)) {
+    if (is_speed_of_light(*record)) {
       bounds[{record->device, scene_title(plan, *record)}] = record;
     }
   }
   Rows rows{
       {"scene", "device", "technique", "clock", "time", "speed of light", "time / speed of light"}};
-  for (const record::Record* record : measured(plan)) {
+  for (const record::Record* record : timed_records(plan)) {
     const auto found = bounds.find({record->device, scene_title(plan, *record)});
-    if (is_bound(*record) || found == bounds.end()) continue;
-    const std::string_view clock = clock_of_both(*record, *found->second);
+    if (is_speed_of_light(*record) || found == bounds.end()) continue;
+    const std::string_view clock = common_clock(*record, *found->second);
     const double time = record::percentile(record->time_ns_by(clock), 0.5);
     const double bound = record::percentile(found->second->time_ns_by(clock), 0.5);
     rows.push_back({scene_title(plan, *record), record->device, record->technique,

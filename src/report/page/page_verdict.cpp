@@ -23,7 +23,7 @@ namespace {
 
 using judge::Finding;
 
-constexpr std::size_t openly_listed = 20;
+constexpr std::size_t max_unfolded_causes = 20;
 
 std::string_view css_class(core::ExitCode code) {
   switch (code) {
@@ -53,7 +53,7 @@ bool has_no_baselines(const Overview& all) {
 
 std::string heading(const Overview& all) {
   if (has_no_baselines(all)) return "Results without baselines";
-  return std::string(words::word_of(all.code));
+  return std::string(words::verdict_word(all.code));
 }
 
 std::string lead(const Overview& all) {
@@ -75,11 +75,11 @@ std::string cause_id(std::size_t number) {
 Html contents(const Overview& all) {
   if (all.open.empty()) return {};
   Html text = markup("<ol class=\"causes\">");
-  const std::size_t shown = std::min(openly_listed, all.open.size());
+  const std::size_t shown = std::min(max_unfolded_causes, all.open.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const Cause& cause = all.open[i];
     text += markup("<li><a href=\"#{}\">{}: {}</a></li>", cause_id(i),
-                   judge::name_of(cause.group.first->check), breakable(words::place(cause)));
+                   judge::name_of(cause.group.first->check), breakable(words::location(cause)));
   }
   if (shown < all.open.size()) {
     text +=
@@ -103,13 +103,13 @@ Html command_block(std::string_view command) {
   return text + markup("{}</span></pre>", command.substr(from));
 }
 
-std::string fact(const PlanData& plan, const std::string& name) {
+std::string system_fact(const PlanData& plan, const std::string& name) {
   const auto found = plan.run->system.find(name);
   return found == plan.run->system.end() ? std::string() : found->second;
 }
 
 // Returns a command that measures and judges the same plans and devices again.
-std::string command_for(std::span<const PlanData> plans) {
+std::string gate_command(std::span<const PlanData> plans) {
   std::vector<std::string> words{"triptych", "gate"};
   std::set<std::string> devices;
   for (const PlanData& plan : plans) {
@@ -125,14 +125,15 @@ std::string command_for(std::span<const PlanData> plans) {
 }
 
 // Returns a section about the program, the machine and the drivers that were tested.
-Html tested(std::span<const PlanData> plans) {
+Html tested_section(std::span<const PlanData> plans) {
   std::map<std::string, std::set<std::string>> facts;
   for (const PlanData& plan : plans) {
     if (plan.run == nullptr) continue;
     facts["measured"].insert(plan.run->started_at);
     for (const auto& [name, label] :
          {std::pair("triptych", "Triptych"), {"processor", "machine"}, {"os", "system"}}) {
-      if (const std::string text = fact(plan, name); !text.empty()) facts[label].insert(text);
+      if (const std::string text = system_fact(plan, name); !text.empty())
+        facts[label].insert(text);
     }
     for (const auto& [device, clocks] : plan.devices) {
       facts["drivers"].insert(
@@ -152,7 +153,8 @@ Html tested(std::span<const PlanData> plans) {
     for (const std::string& text : texts) rows += markup("<div>{}</div>", text);
     rows += markup("</dd>");
   }
-  return folded("What was tested", markup("<dl>{}</dl>", rows) + command_block(command_for(plans)));
+  return folded("What was tested",
+                markup("<dl>{}</dl>", rows) + command_block(gate_command(plans)));
 }
 
 Html card(const Overview& all, std::span<const PlanData> plans) {
@@ -165,14 +167,14 @@ Html card(const Overview& all, std::span<const PlanData> plans) {
       "{}<p>Triptych · {} {}{}{}</p>{}</header>\n",
       css_class(all.code), heading(all), static_cast<int>(all.code), lead(all), contents(all),
       circumstances_of(all), all.devices, all.devices == 1 ? "device" : "devices",
-      all.part ? " · only part of the plans was judged" : "", names, tested(plans));
+      all.part ? " · only part of the plans was judged" : "", names, tested_section(plans));
 }
 
 // Returns the verdict of a row, with a link to its first cause.
-Html word_of(const KindRow& row, const Overview& all) {
+Html verdict_link(const CheckRow& row, const Overview& all) {
   const bool work = row.check == judge::Check::counters || row.check == judge::Check::statistics;
   const auto first = std::ranges::find_if(all.open, [&](const Cause& cause) {
-    const bool reported_with_image = work && cause.group.changed_with_it > 0;
+    const bool reported_with_image = work && cause.group.changed_counters > 0;
     return cause.group.first->check == row.check || reported_with_image;
   });
   const bool open =
@@ -182,17 +184,17 @@ Html word_of(const KindRow& row, const Overview& all) {
   return markup("<a href=\"#{}\">{}</a>", cause_id(number), row.verdict);
 }
 
-Html kinds(const Overview& all) {
+Html check_table(const Overview& all) {
   Html text = markup("<table class=\"kinds\">\n");
-  for (const KindRow& row : all.rows) {
+  for (const CheckRow& row : all.rows) {
     text +=
         markup("<tr><th scope=\"row\">{}</th><td class=\"verdict {}\">{}</td><td>{}</td></tr>\n",
-               row.kind, judge::name_of(row.worst), word_of(row, all), row.sentence);
+               row.label, judge::name_of(row.worst), verdict_link(row, all), row.sentence);
   }
   return text + markup("</table>\n");
 }
 
-Html bounds(const Overview& all) {
+Html bounds_table(const Overview& all) {
   if (all.bounds.empty()) return {};
   Rows rows{{"plan", "device", "images", "largest error / bound", "configuration"}};
   for (const NearestBound& bound : all.bounds) {
@@ -209,7 +211,7 @@ const PlanData& plan_of(const Cause& cause, std::span<const PlanData> plans) {
 Html image_link(const PlanData& plan, const Finding& finding) {
   const auto drawn = [&](const record::Record& record) {
     return record.device == finding.device && record.configuration == finding.configuration &&
-           has_tile(record);
+           has_panel(record);
   };
   if (!std::ranges::any_of(plan.records, drawn)) return {};
   return markup(" <a href=\"#{}\">image</a>",
@@ -226,7 +228,7 @@ Html links(const Cause& cause, const PlanData& plan) {
 // together with wrong images, the cause of the wrong images is also shown for these checks.
 std::string checks_of(const Cause& cause) {
   std::set<std::string_view> checks{judge::name_of(cause.group.first->check)};
-  if (cause.group.changed_with_it > 0) {
+  if (cause.group.changed_counters > 0) {
     std::set<std::pair<std::string_view, std::string_view>> places;
     for (const Finding* each : cause.group.members) {
       places.emplace(each->device, each->configuration);
@@ -252,7 +254,7 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
       "</article>\n",
       judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark",
       fmt::format("{}", fmt::join(cause.group.devices, " ")), suite_of(plan),
-      judge::name_of(first.check), breakable(words::place(cause)), words::text_of(cause),
+      judge::name_of(first.check), breakable(words::location(cause)), words::text_of(cause),
       links(cause, plan),
       first.configuration.empty()
           ? Html()
@@ -262,8 +264,8 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
 }
 
 // Returns the causes. If `first_number` is set, they get element ids that contain their numbers.
-Html listed(std::span<const Cause> causes, std::span<const PlanData> plans,
-            std::optional<std::size_t> first_number) {
+Html articles(std::span<const Cause> causes, std::span<const PlanData> plans,
+              std::optional<std::size_t> first_number) {
   Html text;
   for (std::size_t i = 0; i < causes.size(); ++i) {
     const Html id = first_number ? markup(" id=\"{}\"", cause_id(*first_number + i)) : Html();
@@ -274,19 +276,19 @@ Html listed(std::span<const Cause> causes, std::span<const PlanData> plans,
 
 Html findings(const Overview& all, std::span<const PlanData> plans) {
   const std::span<const Cause> open(all.open);
-  const std::size_t shown = std::min(openly_listed, open.size());
+  const std::size_t shown = std::min(max_unfolded_causes, open.size());
   Html text;
   if (shown > 0) {
-    text += markup("<h2 id=\"findings\">Findings</h2>\n") + listed(open.first(shown), plans, 0);
+    text += markup("<h2 id=\"findings\">Findings</h2>\n") + articles(open.first(shown), plans, 0);
   }
   text += folded(fmt::format("{} more causes", open.size() - shown),
-                 listed(open.subspan(shown), plans, shown));
+                 articles(open.subspan(shown), plans, shown));
   return text +
          folded(
              fmt::format(
                  "{} findings that do not affect the verdict: advisories, skips, known deviations",
-                 all.aside.size()),
-             listed(all.aside, plans, std::nullopt));
+                 all.remarks.size()),
+             articles(all.remarks, plans, std::nullopt));
 }
 
 }  // namespace
@@ -296,36 +298,34 @@ Html verdict_card(const Overview& all, std::span<const PlanData> plans) {
 }
 
 Html findings_section(const Overview& all, std::span<const PlanData> plans) {
-  return kinds(all) + bounds(all) + findings(all, plans);
+  return check_table(all) + bounds_table(all) + findings(all, plans);
 }
 
-Html words_section(const Overview& all) {
-  struct Meaning {
+Html terms_section(const Overview& all) {
+  struct Term {
     std::string_view word;
     std::string_view meaning;
     std::string_view page;
   };
-  constexpr std::array meanings{
-      Meaning{
-          "reference image",
-          "the image that the double-precision renderer computes with the same sample positions "
-          "as the device",
-          "docs/accuracy.md"},
-      Meaning{"bound", "the largest error that a correct device can have in a pixel",
-              "docs/accuracy.md"},
-      Meaning{"limit", "the image to which images converge as the step size approaches 0",
-              "docs/accuracy.md"},
-      Meaning{"front",
-              "the configurations that no other configuration beats in both error and time",
-              "docs/accuracy.md"},
-      Meaning{"stored", "accepted with `triptych accept`", "docs/baselines.md"},
-      Meaning{"device key",
-              "identifies all properties of the device that affect timings or exact pixel values",
-              "docs/glossary.md"},
+  constexpr std::array terms{
+      Term{"reference image",
+           "the image that the double-precision renderer computes with the same sample positions "
+           "as the device",
+           "docs/accuracy.md"},
+      Term{"bound", "the largest error that a correct device can have in a pixel",
+           "docs/accuracy.md"},
+      Term{"limit", "the image to which images converge as the step size approaches 0",
+           "docs/accuracy.md"},
+      Term{"front", "the configurations that no other configuration beats in both error and time",
+           "docs/accuracy.md"},
+      Term{"stored", "accepted with `triptych accept`", "docs/baselines.md"},
+      Term{"device key",
+           "identifies all properties of the device that affect timings or exact pixel values",
+           "docs/glossary.md"},
   };
   Rows rows{{"term", "meaning", "documentation"}};
-  for (const auto& [word, meaning, page] : meanings) rows.push_back({word, meaning, page});
-  for (const KindRow& row : all.rows) {
+  for (const auto& [word, meaning, page] : terms) rows.push_back({word, meaning, page});
+  for (const CheckRow& row : all.rows) {
     const std::string name(judge::name_of(row.check));
     const std::string_view page = row.check == judge::Check::cost          ? "docs/cost.md"
                                   : row.check == judge::Check::code        ? "docs/code.md"
@@ -334,7 +334,7 @@ Html words_section(const Overview& all) {
                                   : row.check == judge::Check::stress      ? "docs/validate.md"
                                                                            : "docs/gate.md";
     rows.push_back({fmt::format("check {}", name),
-                    fmt::format("the check whose result is in the row “{}” above", row.kind),
+                    fmt::format("the check whose result is in the row “{}” above", row.label),
                     page});
   }
   return folded("Meaning of the terms", table(rows));
@@ -349,7 +349,7 @@ JudgedImages judged_images(const Overview& all, std::span<const PlanData> plans)
   for (const PlanData& plan : plans) {
     for (const Finding& finding : plan.verdict->findings) {
       if (finding.configuration.empty()) continue;
-      Judged& of = judged[image_id(plan, finding.device, finding.configuration)];
+      JudgedImage& of = judged[image_id(plan, finding.device, finding.configuration)];
       of.checks.insert(judge::name_of(finding.check));
       const auto cause = causes.find(&finding);
       if (cause != causes.end() && of.cause.empty()) of.cause = cause_id(cause->second);

@@ -13,7 +13,7 @@
 namespace triptych::report {
 namespace {
 
-using comparison::Compared;
+using comparison::ComparedConfiguration;
 using comparison::ComparisonResult;
 using comparison::DeviceChange;
 using comparison::DifferenceKind;
@@ -31,7 +31,7 @@ std::string ratio_of(const comparison::Shift& shift) {
 
 // Formats the times of both sides as "1.23 ms (1.20 to 1.26) → 1.31 ms (1.28 to 1.35)": the median,
 // and the quartiles in parentheses.
-std::string milliseconds_of(const Compared& compared) {
+std::string milliseconds_of(const ComparedConfiguration& compared) {
   if (!compared.times) return {};
   const auto side = [](const comparison::SideTime& time) {
     return fmt::format("{:.3g} ms ({:.3g} to {:.3g})", time.median / 1e6, time.lower_quartile / 1e6,
@@ -42,7 +42,7 @@ std::string milliseconds_of(const Compared& compared) {
 
 // Formats a change in the amount of work as "+1.20 % samples, +0.31 % time per unit of work". The
 // second part is missing if there is no time. Returns "" if the work is the same.
-std::string work_of(const Compared& compared) {
+std::string work_of(const ComparedConfiguration& compared) {
   const auto& work = compared.work;
   if (!work || work->log_ratio == 0) return {};
   const auto percent = [](double ln) { return fmt::format("{:+.2f} %", 100 * std::expm1(ln)); };
@@ -54,7 +54,7 @@ std::string work_of(const Compared& compared) {
   return text;
 }
 
-std::string line_of(const Compared& compared, const ComparisonCommand& command) {
+std::string line_of(const ComparedConfiguration& compared, const ComparisonCommand& command) {
   std::string line = fmt::format("{:<12}", compared.verdict_name());
   if (compared.has_time()) {
     line += milliseconds_of(compared) +
@@ -78,17 +78,20 @@ std::string differences_of(const ComparisonResult& result) {
   const auto groups = result.groups();
   if (!groups.empty()) return words::lines_of(groups);
   const auto& all = result.configurations;
-  if (std::ranges::all_of(all, [](const Compared& each) { return each.ended.has_value(); })) {
+  if (std::ranges::all_of(
+          all, [](const ComparedConfiguration& each) { return each.ended.has_value(); })) {
     return words::nothing_compared(all.empty() ? comparison::TimeReason{} : all.front().reason) +
            "\n";
   }
-  const bool timed = std::ranges::any_of(all, [](const Compared& each) { return each.blocks > 0; });
+  const bool timed =
+      std::ranges::any_of(all, [](const ComparedConfiguration& each) { return each.blocks > 0; });
   return timed ? "no differences except in time\n" : "no differences\n";
 }
 
 std::string clocks_of(const ComparisonResult& result) {
   std::map<comparison::WallClockCause, int> causes;
-  for (const Compared& compared : result.configurations) ++causes[compared.why_wall];
+  for (const ComparedConfiguration& compared : result.configurations)
+    ++causes[compared.wall_clock_cause];
   causes.erase(comparison::WallClockCause::none);
   std::string text;
   for (const auto& [cause, count] : causes) {
@@ -135,7 +138,8 @@ std::string screen_of(const ComparisonResult& result, const ComparisonCommand& c
       command.plan + "\n" + words::sides(result.a, result.b) + differences_of(result);
   if (result.timed) {
     text += "time of b divided by time of a, with the confidence interval in brackets:\n";
-    for (const Compared& compared : result.configurations) text += line_of(compared, command);
+    for (const ComparedConfiguration& compared : result.configurations)
+      text += line_of(compared, command);
     text += clocks_of(result);
   }
   return text + words::headline(result) + "\n";
@@ -144,7 +148,7 @@ std::string screen_of(const ComparisonResult& result, const ComparisonCommand& c
 std::string screen_of(const comparison::StoreDiff& diff) {
   std::string text;
   for (const DeviceChange& change : diff.devices) text += lines_of(change);
-  for (const comparison::OnlyOne& each : diff.only_one) {
+  for (const comparison::OneSidedEntry& each : diff.one_sided) {
     text += fmt::format("{:<12}  {}\n", comparison::name_of(DifferenceKind::unjudged),
                         words::text_of(each));
   }

@@ -17,8 +17,8 @@ constexpr std::array<std::string_view, 14> listed_factors{
     "technique", "voxel",   "sampler", "quadrature",         "precision", "shading",   "skip",
     "colour",    "culling", "ray",     "conservative_depth", "transfer",  "structure", "corners"};
 
-void raise_largest(Coverage& coverage, const std::string& name, std::uint64_t value,
-                   const record::Record& record) {
+void update_largest(Coverage& coverage, const std::string& name, std::uint64_t value,
+                    const record::Record& record) {
   Largest& largest = coverage.largest[name];
   if (value <= largest.value) return;
   largest = {.value = value,
@@ -32,10 +32,10 @@ void add_record(Coverage& coverage, const record::Record& record) {
     if (level != record.factors.end()) coverage.levels[level->first].insert(level->second);
   }
   for (const auto* counts : {&record.counters, &record.statistics}) {
-    for (const auto& [name, value] : *counts) raise_largest(coverage, name, value, record);
+    for (const auto& [name, value] : *counts) update_largest(coverage, name, value, record);
   }
   for (const auto& [kind, bytes] : record.memory) {
-    raise_largest(coverage, "bytes of " + kind, bytes, record);
+    update_largest(coverage, "bytes of " + kind, bytes, record);
   }
 }
 

@@ -40,7 +40,7 @@ struct WideBound {
   // 0 if there are no rays.
   double samples_per_ray = 0;
 };
-inline constexpr double one_step = 1.0 / 255;
+inline constexpr double eight_bit_step = 1.0 / 255;
 
 // Returns the largest error bound of any pixel. Ignores pixels in which rounding may make another
 // particle visible, because their bounds also allow the colours of that particle.

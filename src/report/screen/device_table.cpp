@@ -27,7 +27,7 @@ std::string text_of(const SideBySide::Cell& cell) {
 
 // Returns whether a user can choose this technique to draw images. speed_of_light, for example,
 // only fetches voxels and draws no image.
-bool is_a_choice(const std::string& technique) {
+bool can_be_chosen(const std::string& technique) {
   return std::ranges::none_of(technique::catalogue(), [&](const technique::Technique& each) {
     return each.id == technique && !each.draws_image;
   });
@@ -36,13 +36,13 @@ bool is_a_choice(const std::string& technique) {
 // Returns the cheapest technique on the device: "tiles 2.5 ms". Considers only the techniques with
 // the largest number of configurations, because means over different configurations cannot be
 // compared. Returns "" if none of these techniques was measured on the device.
-std::string least_text(const SideBySide& table, const std::string& device) {
+std::string cheapest_technique(const SideBySide& table, const std::string& device) {
   std::size_t most = 0;
   for (const SideBySide::Row& row : table.rows) most = std::max(most, row.configurations);
   const SideBySide::Row* best = nullptr;
   for (const SideBySide::Row& row : table.rows) {
     if (row.configurations < most || !row.cells.contains(device)) continue;
-    if (!is_a_choice(row.technique)) continue;
+    if (!can_be_chosen(row.technique)) continue;
     const double value = row.cells.at(device).value;
     if (best == nullptr || value < best->cells.at(device).value) best = &row;
   }
@@ -74,7 +74,7 @@ std::string screen_of(const SideBySide& table) {
   std::vector<std::string> least{"best"};
   for (const std::string& device : table.devices) {
     head.push_back(device);
-    least.push_back(least_text(table, device));
+    least.push_back(cheapest_technique(table, device));
   }
   head.emplace_back("configurations");
   least.emplace_back();

@@ -41,7 +41,7 @@ std::string about_vector(std::string_view what, const std::array<double, 3>& num
   return text;
 }
 
-std::string about_take(const SampleRow& row) {
+std::string about_order(const SampleRow& row) {
   if (!row.taken) {
     return fmt::format("the device did not take this sample, whose opacity is {:.7g}",
                        row.expected->opacity.value);
@@ -54,7 +54,7 @@ std::string about_take(const SampleRow& row) {
 // differ. It states the difference.
 std::string difference(const SampleRow& row) {
   const Operation what = row.differs.value();
-  if (what == Operation::sampling) return about_take(row);
+  if (what == Operation::sampling) return about_order(row);
   const accuracy::ExpectedSample& expected = row.expected.value();
   const accuracy::TakenSample& taken = row.taken.value();
   const std::string_view name = accuracy::name_of(what);
@@ -110,12 +110,12 @@ std::string reference_line(const SampleRow& row) {
 
 // Returns whether the row is merged with its neighbours into one line. This is done if the device
 // and the reference agree, and the device either left the sample out or found it to be transparent.
-bool is_quiet(const SampleRow& row) {
+bool can_be_merged(const SampleRow& row) {
   return !row.differs && (!row.taken || row.taken->opacity == 0);
 }
 
-std::string quiet_line(std::int64_t first, std::int64_t last, std::size_t taken,
-                       std::size_t count) {
+std::string merged_line(std::int64_t first, std::int64_t last, std::size_t taken,
+                        std::size_t count) {
   const std::string which =
       first == last ? std::to_string(first) : fmt::format("{}–{}", first, last);
   return fmt::format(
@@ -126,22 +126,22 @@ std::string quiet_line(std::int64_t first, std::int64_t last, std::size_t taken,
                                    taken, count));
 }
 
-// Returns the end of the sequence of quiet rows (see is_quiet()) that begins at `begin`.
-std::size_t end_of_quiet(const std::vector<SampleRow>& rows, std::size_t begin) {
+// Returns the end of the sequence of quiet rows (see can_be_merged()) that begins at `begin`.
+std::size_t end_of_merged(const std::vector<SampleRow>& rows, std::size_t begin) {
   std::size_t end = begin;
-  while (end < rows.size() && is_quiet(rows[end])) ++end;
+  while (end < rows.size() && can_be_merged(rows[end])) ++end;
   return end;
 }
 
 void add_rows(const accuracy::RayHistory& history, PixelText& text) {
   const std::vector<SampleRow>& rows = history.rows;
   for (std::size_t at = 0; at < rows.size();) {
-    if (const std::size_t end = end_of_quiet(rows, at); end > at) {
+    if (const std::size_t end = end_of_merged(rows, at); end > at) {
       const auto taken = std::count_if(rows.begin() + static_cast<std::ptrdiff_t>(at),
                                        rows.begin() + static_cast<std::ptrdiff_t>(end),
                                        [](const SampleRow& row) { return row.taken.has_value(); });
-      text.table.push_back(quiet_line(rows[at].index, rows[end - 1].index,
-                                      static_cast<std::size_t>(taken), end - at));
+      text.table.push_back(merged_line(rows[at].index, rows[end - 1].index,
+                                       static_cast<std::size_t>(taken), end - at));
       at = end;
       continue;
     }
@@ -263,13 +263,13 @@ void add_sprite(const accuracy::SpriteHistory& history, std::size_t at, PixelTex
 // Describes the smallest set of particles that was found for which the pixel is wrong if only these
 // particles are drawn.
 std::string about_fewest(const accuracy::SpriteHistory& history) {
-  constexpr std::size_t most_named = 16;
+  constexpr std::size_t max_named = 16;
   const std::size_t count = history.smallest_set.size();
   std::string ids;
-  for (std::size_t k = 0; k < std::min(count, most_named); ++k) {
+  for (std::size_t k = 0; k < std::min(count, max_named); ++k) {
     ids += fmt::format("{}{}", k == 0 ? "" : ", ", history.smallest_set[k]);
   }
-  if (count > most_named) ids += ", …";
+  if (count > max_named) ids += ", …";
   return fmt::format(
       "each sphere is correct when drawn alone, but the pixel is wrong ({}) when these {} spheres "
       "are drawn together{}: {}",

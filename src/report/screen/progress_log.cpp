@@ -13,8 +13,8 @@ namespace triptych::report {
 namespace {
 
 // The maximum number of failures that a log reports for each device of a plan.
-constexpr int most_failures_each = 3;
-constexpr std::string_view to_start_of_line = "\r\033[K";
+constexpr int max_failures_per_device = 3;
+constexpr std::string_view clear_line = "\r\033[K";
 
 std::string time_of(const record::Record& record) {
   const auto summary = record::summarise(record.time_ns());
@@ -37,35 +37,35 @@ bool is_failure(const record::Record& record) {
 
 }  // namespace
 
-std::string rough_time(std::chrono::seconds time) {
+std::string rounded_duration(std::chrono::seconds time) {
   const auto seconds = time.count();
   if (seconds < 120) return fmt::format("{} s", seconds);
   if (seconds < 7200) return fmt::format("{} min", (seconds + 59) / 60);
   return fmt::format("{} h", (seconds + 3599) / 3600);
 }
 
-SignsOfLife::SignsOfLife(std::function<Clock::time_point()> now)
-    : now_(std::move(now)), begun_(now_()), last_(begun_) {}
+Heartbeat::Heartbeat(std::function<Clock::time_point()> now)
+    : now_(std::move(now)), started_(now_()), last_(started_) {}
 
-bool SignsOfLife::due() {
+bool Heartbeat::due() {
   const Clock::time_point now = now_();
-  const auto interval = std::max<Clock::duration>(std::chrono::seconds(30), (now - begun_) / 5);
+  const auto interval = std::max<Clock::duration>(std::chrono::seconds(30), (now - started_) / 5);
   if (now - last_ < interval) return false;
   last_ = now;
   return true;
 }
 
-void SignsOfLife::restart() {
+void Heartbeat::restart() {
   last_ = now_();
 }
 
 ProgressLog::ProgressLog(Options options)
-    : options_(std::move(options)), signs_(options_.now), last_(options_.now()) {}
+    : options_(std::move(options)), heartbeat_(options_.now), last_(options_.now()) {}
 
 void ProgressLog::count(const record::Record& record) {
-  const Clock::time_point begun = std::exchange(last_, options_.now());
+  const Clock::time_point started = std::exchange(last_, options_.now());
   Tally& tally =
-      tallies_.try_emplace({record.plan, record.device}, Tally{.begun = begun}).first->second;
+      tallies_.try_emplace({record.plan, record.device}, Tally{.started = started}).first->second;
   if (record.outcome == record::Outcome::measured) {
     ++tally.measured;
   } else {
@@ -79,7 +79,7 @@ std::string ProgressLog::line_for(const Step& step) {
   const record::Record& record = *step.record;
   const bool failure = is_failure(record);
   const int failed = tallies_.at({record.plan, record.device}).failed;
-  if (!options_.verbose && (!failure || failed > most_failures_each)) return {};
+  if (!options_.verbose && (!failure || failed > max_failures_per_device)) return {};
   return core::printable(fmt::format("{}/{} {} {}: {}", step.done, step.total, record.device,
                                      record::short_name(record), outcome_of(record))) +
          "\n";
@@ -88,10 +88,10 @@ std::string ProgressLog::line_for(const Step& step) {
 std::string ProgressLog::bar(const Step& step) const {
   constexpr int cells = 20;
   const int full = step.total > 0 ? cells * step.done / step.total : 0;
-  const std::string text =
-      fmt::format("{} [{:#>{}}{:.>{}}] {}/{} {}{}", step.plan, "", full, "", cells - full,
-                  step.done, step.total, step.device,
-                  step.left.count() > 0 ? ", " + rough_time(step.left) + " left" : std::string());
+  const std::string text = fmt::format(
+      "{} [{:#>{}}{:.>{}}] {}/{} {}{}", step.plan, "", full, "", cells - full, step.done,
+      step.total, step.device,
+      step.left.count() > 0 ? ", " + rounded_duration(step.left) + " left" : std::string());
   return fitted(text);
 }
 
@@ -105,10 +105,10 @@ std::string ProgressLog::summaries() {
   std::string text;
   for (const auto& [where, tally] : tallies_) {
     const auto& [plan, device] = where;
-    const auto took = std::chrono::duration_cast<std::chrono::seconds>(tally.ended - tally.begun);
+    const auto took = std::chrono::duration_cast<std::chrono::seconds>(tally.ended - tally.started);
     text += core::printable(fmt::format("{} on {}: {} measured, {} skipped, {} failed, {}", plan,
                                         device, tally.measured, tally.skipped, tally.failed,
-                                        rough_time(took))) +
+                                        rounded_duration(took))) +
             "\n";
   }
   tallies_.clear();
@@ -124,13 +124,13 @@ std::string ProgressLog::next(const Step& step) {
   }
   if (step.record != nullptr) count(*step.record);
   text += line_for(step);
-  if (options_.width > 0) return std::string(to_start_of_line) + text + bar(step);
+  if (options_.width > 0) return std::string(clear_line) + text + bar(step);
   if (!text.empty()) {
-    signs_.restart();
-  } else if (signs_.due()) {
+    heartbeat_.restart();
+  } else if (heartbeat_.due()) {
     text = core::printable(fmt::format(
                "{}: {} of {}{}", step.plan, step.done, step.total,
-               step.left.count() > 0 ? ", about " + rough_time(step.left) + " left" : "")) +
+               step.left.count() > 0 ? ", about " + rounded_duration(step.left) + " left" : "")) +
            "\n";
   }
   return text;
@@ -139,14 +139,14 @@ std::string ProgressLog::next(const Step& step) {
 std::string ProgressLog::loading(std::string_view data, double share) {
   const std::string text = fmt::format("loading {}: {:.0f} %", data, 100 * share);
   if (options_.width > 0) {
-    return std::string(to_start_of_line) + (share < 1 ? fitted(text) : std::string());
+    return std::string(clear_line) + (share < 1 ? fitted(text) : std::string());
   }
-  return signs_.due() ? core::printable(text) + "\n" : std::string();
+  return heartbeat_.due() ? core::printable(text) + "\n" : std::string();
 }
 
 std::string ProgressLog::end() {
   const std::string text = summaries();
-  return options_.width > 0 ? std::string(to_start_of_line) + text : text;
+  return options_.width > 0 ? std::string(clear_line) + text : text;
 }
 
 }  // namespace triptych::report

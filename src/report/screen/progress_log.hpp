@@ -15,17 +15,17 @@ namespace triptych::report {
 
 // Decides when to write a progress line to a log to which nothing was written for a while. The
 // intervals grow, so that the log of a one-hour run gets about 20 such lines.
-class SignsOfLife {
+class Heartbeat {
  public:
   using Clock = std::chrono::steady_clock;
-  explicit SignsOfLife(std::function<Clock::time_point()> now = Clock::now);
+  explicit Heartbeat(std::function<Clock::time_point()> now = Clock::now);
   [[nodiscard]] bool due();
   // Restarts the interval. Call this after other output was written.
   void restart();
 
  private:
   std::function<Clock::time_point()> now_;
-  Clock::time_point begun_;
+  Clock::time_point started_;
   Clock::time_point last_;
 };
 
@@ -64,7 +64,7 @@ class ProgressLog {
     int measured = 0;
     int skipped = 0;
     int failed = 0;
-    Clock::time_point begun;
+    Clock::time_point started;
     Clock::time_point ended;
   };
 
@@ -75,13 +75,13 @@ class ProgressLog {
   void count(const record::Record& record);
 
   Options options_;
-  SignsOfLife signs_;
+  Heartbeat heartbeat_;
   Clock::time_point last_;  // when the last configuration ended
   std::string plan_;
   std::map<std::pair<std::string, std::string>, Tally> tallies_;  // counts by plan and device
 };
 
 // Formats a duration, rounded up: "34 s", "12 min", "3 h".
-[[nodiscard]] std::string rough_time(std::chrono::seconds time);
+[[nodiscard]] std::string rounded_duration(std::chrono::seconds time);
 
 }  // namespace triptych::report

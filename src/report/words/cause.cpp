@@ -34,7 +34,7 @@ std::string devices(const FindingGroup& group) {
                                      : fmt::format("{}", fmt::join(group.devices, ", "));
 }
 
-std::string place(const Cause& cause) {
+std::string location(const Cause& cause) {
   const Finding& first = *cause.group.first;
   std::string text = first.device.empty() ? cause.result->plan : devices(cause.group);
   if (first.device.empty() && cause.plans > 1) {
@@ -54,41 +54,41 @@ std::string found(const Cause& cause) {
         group.devices.size() > 1 ? fmt::format(" on {}", worst.device) : std::string();
     text = fmt::format("worst in {}{}: {}", record::short_name(worst.configuration), where, text);
   }
-  if (!group.right_on.empty() && group.first->verdict == judge::Verdict::regression) {
-    text += fmt::format("; correct on {}", fmt::join(group.right_on, ", "));
+  if (!group.correct_devices.empty() && group.first->verdict == judge::Verdict::regression) {
+    text += fmt::format("; correct on {}", fmt::join(group.correct_devices, ", "));
   }
-  if (group.changed_with_it > 0) {
+  if (group.changed_counters > 0) {
     text += group.configurations == 1
                 ? "; the counters of this configuration changed, too"
                 : fmt::format("; the counters of {} configurations changed, too",
-                              group.changed_with_it);
+                              group.changed_counters);
   }
   return text;
 }
 
-std::string blame(const FindingGroup& group) {
-  const Blame blame = group.blame();
-  switch (blame.of) {
-    case Blame::Of::unknown:
+std::string attribution(const FindingGroup& group) {
+  const FaultAttribution attribution = group.attribution();
+  switch (attribution.kind) {
+    case FaultAttribution::Kind::unknown:
       break;
-    case Blame::Of::driver:
+    case FaultAttribution::Kind::driver:
       return fmt::format(
           "the driver is at fault, because {} correct",
-          with_verb(blame.devices, "uses the same API and is", "use the same API and are"));
-    case Blame::Of::driver_since_accepted:
+          with_verb(attribution.devices, "uses the same API and is", "use the same API and are"));
+    case FaultAttribution::Kind::driver_since_accepted:
       return fmt::format(
           "the driver is at fault, because {} correct when the baselines were accepted",
-          with_verb(blame.devices, "uses the same API and was", "use the same API and were"));
-    case Blame::Of::not_the_driver:
+          with_verb(attribution.devices, "uses the same API and was", "use the same API and were"));
+    case FaultAttribution::Kind::not_the_driver:
       return fmt::format("the driver is not at fault, because {} wrong, too",
-                         with_verb(blame.devices, "is", "are"));
+                         with_verb(attribution.devices, "is", "are"));
   }
   return {};
 }
 
 std::string text_of(const Cause& cause) {
   std::string text = found(cause);
-  for (const std::string& more : {blame(cause.group), advice(*cause.group.first)}) {
+  for (const std::string& more : {attribution(cause.group), advice(*cause.group.first)}) {
     if (!more.empty()) text += "; " + more;
   }
   return text;
@@ -125,7 +125,7 @@ std::vector<std::string> next_steps(const Overview& all, std::string_view store_
   return {first, "      to find the commit: gate --bisect; to excuse a known bug: waivers.json"};
 }
 
-std::string_view word_of(core::ExitCode code) {
+std::string_view verdict_word(core::ExitCode code) {
   switch (code) {
     case core::ExitCode::pass:
       return "PASS";

@@ -17,14 +17,14 @@ namespace triptych::report::words {
 [[nodiscard]] std::string devices(const FindingGroup& group);
 // Returns where the findings are: "vulkan:lavapipe, technique=raycast (12 configurations)", or the
 // plans if the findings belong to no device.
-[[nodiscard]] std::string place(const Cause& cause);
+[[nodiscard]] std::string location(const Cause& cause);
 // Describes the worst finding of the group. Also lists the devices on which the smallest
 // configuration is correct, and the number of configurations whose counters changed, too.
 [[nodiscard]] std::string found(const Cause& cause);
 // States whether the driver is at fault. Returns "" if the results of other devices do not reveal
 // this.
-[[nodiscard]] std::string blame(const FindingGroup& group);
-// Returns found(), blame() and the advice in one line.
+[[nodiscard]] std::string attribution(const FindingGroup& group);
+// Returns found(), attribution() and the advice in one line.
 [[nodiscard]] std::string text_of(const Cause& cause);
 
 // Returns two lines that suggest the next commands after a regression, or no lines if there is no
@@ -33,7 +33,7 @@ namespace triptych::report::words {
                                                   std::string_view store_option);
 
 // Returns "FAIL", "PASS" or "CANNOT JUDGE".
-[[nodiscard]] std::string_view word_of(core::ExitCode code);
+[[nodiscard]] std::string_view verdict_word(core::ExitCode code);
 // Explains an exit code: "1: something is wrong or has changed".
 [[nodiscard]] std::string_view meaning_of(core::ExitCode code);
 

@@ -40,10 +40,10 @@ std::string executable_text(const std::vector<CodeChange>& changes) {
   }
   deciding.insert(deciding.end(), registers.begin(), registers.end());
   if (!deciding.empty()) return fmt::format("{}", fmt::join(deciding, ", "));
-  constexpr std::size_t most_others = 4;
-  if (others.size() > most_others) {
-    const std::size_t more = others.size() - most_others;
-    others.resize(most_others);
+  constexpr std::size_t max_others = 4;
+  if (others.size() > max_others) {
+    const std::size_t more = others.size() - max_others;
+    others.resize(max_others);
     others.push_back(fmt::format("{} more", more));
   }
   return fmt::format("{}", fmt::join(others, ", "));

@@ -59,7 +59,7 @@ std::string other_bits(const Difference& difference) {
   return text;
 }
 
-std::string all_changes(const Difference& difference) {
+std::string changes_text(const Difference& difference) {
   std::string text;
   for (const judge::Change& each : difference.changes) {
     text += (text.empty() ? "" : "; ") + text_of(each);
@@ -106,7 +106,7 @@ std::string sentence_of(const Difference& difference) {
           "not comparable: the counts of side a come from {}, those of side b from {}",
           difference.facts.at("a"), difference.facts.at("b"));
     case DifferenceCause::values_changed:
-      return all_changes(difference);
+      return changes_text(difference);
     case DifferenceCause::code_changed:
       return text_of(*difference.code);
     case DifferenceCause::code_total:
@@ -294,7 +294,7 @@ std::string text_of(WallClockCause cause) {
   return {};
 }
 
-std::string text_of(const comparison::OnlyOne& only) {
+std::string text_of(const comparison::OneSidedEntry& only) {
   const std::string side = side_name(only.side);
   if (only.device.empty()) return fmt::format("plan {} exists only on {}", only.plan, side);
   return fmt::format("{} on {} exists only on {}", only.plan, only.device, side);
@@ -345,7 +345,7 @@ std::string headline(const comparison::ComparisonResult& result) {
     for (const Difference& difference : compared.differences) ++kinds[difference.kind];
   }
   const std::string times = result.timed ? verdicts(result) : "";
-  return fmt::format("{}: {}{}{}, {} fixed, {} changed; {:.0f} s", word_of(result.exit_code()),
+  return fmt::format("{}: {}{}{}, {} fixed, {} changed; {:.0f} s", verdict_word(result.exit_code()),
                      times, times.empty() ? "" : "; ",
                      counted(kinds[DifferenceKind::regression], "deterministic regression",
                              "deterministic regressions"),

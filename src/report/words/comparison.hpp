@@ -25,7 +25,7 @@ namespace triptych::report::words {
 [[nodiscard]] std::string text_of(const comparison::TimeReason& reason);
 [[nodiscard]] std::string text_of(comparison::WallClockCause cause);
 // States what only one side has: "plan volume/quick exists only on side a".
-[[nodiscard]] std::string text_of(const comparison::OnlyOne& only);
+[[nodiscard]] std::string text_of(const comparison::OneSidedEntry& only);
 // Describes the measurement that is in progress: "fresh process run 2 of 5". A process run is the
 // lifetime of one worker process.
 [[nodiscard]] std::string stage_of(const comparison::ComparisonProgress& progress);

@@ -19,7 +19,7 @@ using judge::Cause;
 using judge::Observation;
 
 // Returns at most three of the names: "A; B; C; …".
-std::string first_of(const std::vector<std::string>& names) {
+std::string first_names(const std::vector<std::string>& names) {
   const auto named = std::min<std::ptrdiff_t>(std::ssize(names), 3);
   const std::vector<std::string> first(names.begin(), names.begin() + named);
   return fmt::format("{}{}", fmt::join(first, "; "), std::ssize(names) > named ? "; …" : "");
@@ -34,7 +34,7 @@ std::string nothing_measured(const Observation& what) {
 
 std::string missing(const Observation& what) {
   return fmt::format("{} of {:.0f} {} configurations have no record: {}", what.names.size(),
-                     what.number("wanted"), what.fact("kind"), first_of(what.names));
+                     what.number("wanted"), what.fact("kind"), first_names(what.names));
 }
 
 std::string other_plan(const Observation& what) {
@@ -324,7 +324,7 @@ std::string examples(const std::vector<std::string>& configurations) {
   return fmt::format(
       "{} ({})",
       counted(static_cast<double>(configurations.size()), "configuration", "configurations"),
-      first_of(configurations));
+      first_names(configurations));
 }
 
 std::string percent(double ratio) {

@@ -9,7 +9,7 @@
 namespace triptych::report {
 namespace {
 
-using comparison::Compared;
+using comparison::ComparedConfiguration;
 using comparison::ComparisonResult;
 using comparison::ConfigurationDiff;
 using comparison::StoreDiff;
@@ -65,7 +65,7 @@ TEST(ComparisonScreen, ShowsTheVariablesOfASide) {
 // Neither of the two compared devices supports the only configuration.
 TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
   ComparisonResult result;
-  Compared skipped;
+  ComparedConfiguration skipped;
   skipped.ended = record::Outcome::skipped;
   skipped.reason = no_compute_shaders();
   result.configurations = {skipped};
@@ -81,7 +81,7 @@ TEST(ComparisonScreen, ExplainsWhyNothingWasCompared) {
 TEST(ComparisonScreen, HasNoTimePerWorkWithoutAMeasuredTime) {
   ComparisonResult result;
   result.timed = true;
-  Compared wrong;
+  ComparedConfiguration wrong;
   wrong.reason = {.cause = TimeCause::wrong_image, .side = measure::Side::b};
   wrong.work = judge::WorkChange{.log_ratio = std::log(1.167), .unit = "samples"};
   result.configurations = {wrong};

@@ -87,7 +87,7 @@ std::vector<double> differences_with(std::size_t n, std::size_t statistic) {
 // density, σ² the variance of V, and κ₄ = −Σi⁴/8 its fourth cumulant. φ(z)(3z − z³) is at most
 // 0.551. Another 10 % are allowed for all further terms.
 TEST(SignedRank, TheApproximationErrsByItsNextTermAtMost) {
-  constexpr std::size_t n = most_for_exact + 1;
+  constexpr std::size_t n = max_exact_differences + 1;
   std::vector<double> share{1};
   double fourth = 0;
   double variance = 0;
@@ -125,7 +125,7 @@ TEST(SignedRank, TiesNarrowTheApproximation) {
               1e-12);
 }
 
-TEST(Shift, TheIntervalIsWhatTheTestDoesNotReject) {
+TEST(Shift, TheIntervalContainsTheShiftsThatTheTestAccepts) {
   core::Random random(8);
   for (const std::size_t n : {12U, 24U, 48U}) {
     std::vector<double> values;

@@ -29,10 +29,10 @@ class Annotations : public testing::Test {
                                    "{\n \"step=1\": {},\n \"step=2\": {}\n}\n"));
   }
 
-  [[nodiscard]] FindingPlaces places() const {
-    return FindingPlaces({.repository = folder.path(),
-                          .baselines = folder.path() / "baselines",
-                          .job = ".github/workflows/triptych.yml"});
+  [[nodiscard]] FindingLocations locations() const {
+    return FindingLocations({.repository = folder.path(),
+                             .baselines = folder.path() / "baselines",
+                             .job = ".github/workflows/triptych.yml"});
   }
 
   static judge::GateResult result_with(judge::Verdict verdict, const std::string& configuration,
@@ -48,7 +48,7 @@ class Annotations : public testing::Test {
 
 TEST_F(Annotations, ARegressionIsAnErrorAtItsStoredValue) {
   const std::string text =
-      github_annotations(std::vector{result_with(regression, "step=2")}, places());
+      github_annotations(std::vector{result_with(regression, "step=2")}, locations());
   EXPECT_THAT(text, StartsWith("::error file=baselines/volume/quick/counters.json,line=3,"
                                "title=counters%3A gl%3Ax::samples 3 → 4"));
   EXPECT_THAT(text, HasSubstr("%0Atriptych gate volume/quick --device gl:x --set step=2"));
@@ -57,14 +57,14 @@ TEST_F(Annotations, ARegressionIsAnErrorAtItsStoredValue) {
 
 TEST_F(Annotations, FindingsThatCannotBeJudgedAreWarningsAtTheJob) {
   std::vector<judge::GateResult> results{result_with(cannot_judge, "step=7")};
-  EXPECT_THAT(github_annotations(results, places()),
+  EXPECT_THAT(github_annotations(results, locations()),
               StartsWith("::warning file=.github/workflows/triptych.yml,line=1,"));
   results.front().findings.front().verdict = advisory;
-  EXPECT_EQ(github_annotations(results, places()), "");
+  EXPECT_EQ(github_annotations(results, locations()), "");
 }
 
 TEST_F(Annotations, FilesOutsideTheRepositoryAreNotReferenced) {
-  const FindingPlaces elsewhere(
+  const FindingLocations elsewhere(
       {.repository = folder.path() / "other", .baselines = folder.path() / "baselines"});
   const judge::GateResult result = result_with(regression, "step=2");
   EXPECT_EQ(elsewhere.of(result.findings.front(), result).file, "");
@@ -76,7 +76,7 @@ TEST_F(Annotations, AreAtMostTen) {
     results.push_back(result_with(regression, "step=2"));
     results.back().findings.front().device = fmt::format("gl:x{}", i);
   }
-  const std::string text = github_annotations(results, places());
+  const std::string text = github_annotations(results, locations());
   EXPECT_EQ(std::ranges::count(text, '\n'), 10);
 }
 
@@ -84,16 +84,16 @@ TEST_F(Annotations, NamesCannotInjectCommands) {
   for (const std::string& name : test::hostile_strings()) {
     judge::GateResult result = result_with(regression, "step=" + name + "\n::set-env name=A::b");
     result.plan = result.findings.front().device = name + "\n::error::";
-    const std::string text = github_annotations(std::vector{result}, places());
+    const std::string text = github_annotations(std::vector{result}, locations());
     EXPECT_EQ(std::ranges::count(text, '\n'), 1) << text;
     EXPECT_EQ(text.find('\r'), std::string::npos);
-    EXPECT_TRUE(nlohmann::json::accept(gitlab_code_quality(std::vector{result}, places())));
+    EXPECT_TRUE(nlohmann::json::accept(gitlab_code_quality(std::vector{result}, locations())));
   }
 }
 
 TEST_F(Annotations, CodeQualityContainsWhatGitLabRequires) {
   const auto issues = nlohmann::json::parse(
-      gitlab_code_quality(std::vector{result_with(regression, "step=2")}, places()));
+      gitlab_code_quality(std::vector{result_with(regression, "step=2")}, locations()));
   ASSERT_EQ(issues.size(), 1U);
   EXPECT_EQ(issues[0]["severity"], "major");
   EXPECT_EQ(issues[0]["check_name"], "counters");
@@ -106,10 +106,10 @@ TEST_F(Annotations, CodeQualityContainsWhatGitLabRequires) {
 TEST_F(Annotations, JunitHasTimesFilesAndShortNames) {
   judge::GateResult result = result_with(regression, "step=2,technique=raycast");
   result.findings.push_back(finding_of(Check::image, pass, "gl:x", "step=2,technique=raycast"));
-  const FindingPlaces found = places();
+  const FindingLocations found = locations();
   const JunitFacts facts{
       .seconds = {{"volume/quick", {{{"gl:x", "step=2,technique=raycast"}, 1.5}}}},
-      .places = &found};
+      .locations = &found};
   const std::string xml = junit(result, facts);
   EXPECT_EQ(test::xml_fault(xml), "");
   EXPECT_THAT(xml, HasSubstr("name=\"raycast.s2\" time=\"1.500\" "

@@ -33,7 +33,7 @@ ScatterFigure some_scatter() {
   scatter.points[2].flag = "slower";
   scatter.points[2].deviation = 0.5;
   scatter.line = {std::log(2.0), 1};
-  scatter.shows_from = 0.2;
+  scatter.reporting_threshold = 0.2;
   return scatter;
 }
 

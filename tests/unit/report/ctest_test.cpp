@@ -12,8 +12,8 @@
 #include "core/private_folder.hpp"
 #include "core/temporary_folder.hpp"
 #include "findings.hpp"
-#include "report/ci/ctest_answer.hpp"
 #include "report/ci/ctest_list.hpp"
+#include "report/ci/ctest_output.hpp"
 
 namespace triptych::report {
 namespace {
@@ -73,7 +73,7 @@ TEST(CTestList, OneDevicePerDriverMeasuresALargePlan) {
   EXPECT_TRUE(measures(egl) && measures(newer) && measures(vulkan));
 }
 
-class CTestAnswer : public testing::Test {
+class CTestOutput : public testing::Test {
  protected:
   core::TemporaryFolder folder_;
   record::Store store_{folder_.path() / "s", record::Store::Mode::append};
@@ -85,25 +85,25 @@ class CTestAnswer : public testing::Test {
   }
 };
 
-TEST_F(CTestAnswer, AdviceAloneDoesNotPass) {
+TEST_F(CTestOutput, AdviceAloneDoesNotPass) {
   add(Verdict::advisory, "step=1");
-  EXPECT_TRUE(reason_to_skip(result_));
+  EXPECT_TRUE(skip_reason(result_));
   add(Verdict::pass, "step=2");
-  EXPECT_EQ(reason_to_skip(result_), std::nullopt);
+  EXPECT_EQ(skip_reason(result_), std::nullopt);
 }
 
-TEST_F(CTestAnswer, ADeviceThatCannotBeJudgedIsNotSkipped) {
+TEST_F(CTestOutput, ADeviceThatCannotBeJudgedIsNotSkipped) {
   add(Verdict::skipped, "step=1");
   add(Verdict::pass, "");
-  EXPECT_TRUE(reason_to_skip(result_));
+  EXPECT_TRUE(skip_reason(result_));
   add(Verdict::cannot_judge, "");
-  EXPECT_EQ(reason_to_skip(result_), std::nullopt);
+  EXPECT_EQ(skip_reason(result_), std::nullopt);
 }
 
-TEST_F(CTestAnswer, ACorrelationOfADeviceIsAVerdict) {
+TEST_F(CTestOutput, ACorrelationOfADeviceIsAVerdict) {
   add(Verdict::advisory, "");
   add(Verdict::pass, "", Check::correlation);
-  EXPECT_EQ(reason_to_skip(result_), std::nullopt);
+  EXPECT_EQ(skip_reason(result_), std::nullopt);
 }
 
 // Sets TMPDIR until the end of the scope.
@@ -123,7 +123,7 @@ class TemporaryFolders {
 
 // Another user may have created the folder for images before, as a link to a folder of this user.
 // Names come from a store, so they may name another folder.
-TEST_F(CTestAnswer, ImagesAreWrittenOnlyToAPrivateFolder) {
+TEST_F(CTestOutput, ImagesAreWrittenOnlyToAPrivateFolder) {
   const auto tmp = folder_.path() / "tmp";
   std::filesystem::create_directories(tmp);
   // With some values of umask, other users could write to the folder.
@@ -141,20 +141,20 @@ TEST_F(CTestAnswer, ImagesAreWrittenOnlyToAPrivateFolder) {
     return judge::TruthPair{core::Image(2, 2), core::Image(2, 2)};
   };
   const auto own = tmp / core::name_of_this_user();
-  EXPECT_THAT(ctest_answer(result_, store_, truth),
+  EXPECT_THAT(ctest_output(result_, store_, truth),
               HasSubstr((own / "ctest/.._.._x.test.png").string()));
   EXPECT_TRUE(std::filesystem::exists(own / "ctest/.._.._x.difference.png"));
   EXPECT_EQ(std::filesystem::status(own / "ctest").permissions(),
             std::filesystem::perms::owner_all);
   std::filesystem::remove_all(own);
   std::filesystem::create_directory_symlink(folder_.path(), own);
-  EXPECT_THROW(static_cast<void>(ctest_answer(result_, store_, truth)), core::IoError);
+  EXPECT_THROW(static_cast<void>(ctest_output(result_, store_, truth)), core::IoError);
 }
 
-TEST_F(CTestAnswer, ReportsFailuresAndTheWorstNumbers) {
+TEST_F(CTestOutput, ReportsFailuresAndTheWorstNumbers) {
   add(Verdict::regression, "step=1");
   add(Verdict::pass, "step=2");
-  const std::string text = ctest_answer(result_, store_, {});
+  const std::string text = ctest_output(result_, store_, {});
   EXPECT_THAT(text, HasSubstr("regression step=1: "));
   EXPECT_THAT(text, HasSubstr("name=\"ratio\">0.5</CTestMeasurement>\n"));
   EXPECT_THAT(text, Not(HasSubstr("step=2")));

@@ -64,7 +64,7 @@ Figure some_figure(const std::string& text) {
   figure.line(std::array{Figure::Place{1, 2}, Figure::Place{10, 4}}, {.dashed = true}, text);
   figure.box({2, 0}, {3, 4}, {.opacity = 0.5}, text);
   figure.label({10, 4}, text);
-  figure.upright(5, text);
+  figure.vertical_line(5, text);
   figure.legend(text, {});
   figure.series(text);
   figure.point({3, 3}, {}, text);
@@ -76,17 +76,17 @@ TEST(Figure, ARuleBeyondTheAxisIsNotDrawn) {
   figure.point({1, 2}, {});
   figure.point({10, 4}, {});
   const std::string without = figure.svg().text();
-  figure.upright(1e-6);
+  figure.vertical_line(1e-6);
   EXPECT_EQ(figure.svg().text(), without);
-  figure.upright(5);
+  figure.vertical_line(5);
   EXPECT_NE(figure.svg().text(), without);
 }
 
 TEST(Figure, ARuleHasItsLabelInsideTheFrame) {
   Figure figure("rules", {.low = 0, .high = 10}, {.low = 0, .high = 1}, 200, 100);
   figure.point({1, 0}, {});
-  figure.upright(5, "1/255");
-  figure.upright(5.2, "1/256");  // there is no space for this label beside the first one
+  figure.vertical_line(5, "1/255");
+  figure.vertical_line(5.2, "1/256");  // there is no space for this label beside the first one
   const std::string svg = figure.svg().text();
   EXPECT_THAT(svg, HasSubstr(">1/255</text>"));
   EXPECT_THAT(svg, Not(HasSubstr(">1/256</text>")));

@@ -23,7 +23,7 @@ Finding finding(judge::Verdict verdict, const std::string& device, const std::st
   return finding_of(check, verdict, device, configuration, what);
 }
 
-const judge::Observation dearer = changed("device_code");
+const judge::Observation costlier = changed("device_code");
 const judge::Observation off{.cause = judge::Cause::residual_moved};
 
 TEST(FindingGroups, OneCauseIsReportedOnceWithTheSmallestCase) {
@@ -39,34 +39,36 @@ TEST(FindingGroups, OneCauseIsReportedOnceWithTheSmallestCase) {
   EXPECT_EQ(groups[0].configurations, 2U);
   EXPECT_EQ(groups[0].first, &findings[1]);
   EXPECT_EQ(groups[0].signature, "technique=raycast");
-  EXPECT_THAT(groups[0].right_on, ElementsAre("gl:y"));
+  EXPECT_THAT(groups[0].correct_devices, ElementsAre("gl:y"));
 }
 
 TEST(FindingGroups, OtherDevicesShowWhoIsAtFault) {
-  const auto blame = [](std::vector<Finding> findings) { return grouped(findings)[0].blame(); };
+  const auto attribution = [](std::vector<Finding> findings) {
+    return grouped(findings)[0].attribution();
+  };
   Finding wrong = finding(regression, "vulkan:new", "technique=a");
-  EXPECT_EQ(blame({wrong}).of, Blame::Of::unknown);
+  EXPECT_EQ(attribution({wrong}).kind, FaultAttribution::Kind::unknown);
   const Finding right = finding(pass, "vulkan:old", "technique=a", within_bound());
-  EXPECT_EQ(blame({wrong, right}).of, Blame::Of::driver);
-  EXPECT_THAT(blame({wrong, right}).devices, ElementsAre("vulkan:old"));
-  EXPECT_EQ(blame({wrong, finding(pass, "gl:old", "technique=a", within_bound())}).of,
-            Blame::Of::unknown)
+  EXPECT_EQ(attribution({wrong, right}).kind, FaultAttribution::Kind::driver);
+  EXPECT_THAT(attribution({wrong, right}).devices, ElementsAre("vulkan:old"));
+  EXPECT_EQ(attribution({wrong, finding(pass, "gl:old", "technique=a", within_bound())}).kind,
+            FaultAttribution::Kind::unknown)
       << "Triptych's code for the API may be wrong";
   wrong.accepted_on = {"gl:old", "vulkan:new", "vulkan:old"};
-  EXPECT_EQ(blame({wrong}).of, Blame::Of::driver_since_accepted);
-  EXPECT_THAT(blame({wrong}).devices, ElementsAre("vulkan:new", "vulkan:old"));
-  EXPECT_EQ(blame({wrong, finding(regression, "opencl:x", "technique=a")}).of,
-            Blame::Of::not_the_driver);
+  EXPECT_EQ(attribution({wrong}).kind, FaultAttribution::Kind::driver_since_accepted);
+  EXPECT_THAT(attribution({wrong}).devices, ElementsAre("vulkan:new", "vulkan:old"));
+  EXPECT_EQ(attribution({wrong, finding(regression, "opencl:x", "technique=a")}).kind,
+            FaultAttribution::Kind::not_the_driver);
   wrong.injected = {"half_voxel"};
-  EXPECT_EQ(blame({wrong, right}).of, Blame::Of::unknown);
-  EXPECT_EQ(blame({finding(regression, "vulkan:lavapipe", "technique=a"),
-                   finding(regression, "gl:llvmpipe-egl", "technique=a")})
-                .of,
-            Blame::Of::unknown)
+  EXPECT_EQ(attribution({wrong, right}).kind, FaultAttribution::Kind::unknown);
+  EXPECT_EQ(attribution({finding(regression, "vulkan:lavapipe", "technique=a"),
+                         finding(regression, "gl:llvmpipe-egl", "technique=a")})
+                .kind,
+            FaultAttribution::Kind::unknown)
       << "both APIs use the same driver";
-  const Finding more = finding(regression, "vulkan:new", "technique=a", dearer, Check::cost);
-  EXPECT_EQ(blame({more, finding(pass, "vulkan:old", "technique=a", {}, Check::cost)}).of,
-            Blame::Of::unknown);
+  const Finding more = finding(regression, "vulkan:new", "technique=a", costlier, Check::cost);
+  EXPECT_EQ(attribution({more, finding(pass, "vulkan:old", "technique=a", {}, Check::cost)}).kind,
+            FaultAttribution::Kind::unknown);
 }
 
 // Configurations that were skipped because two similar ones had failed belong to the cause of those
@@ -84,10 +86,10 @@ TEST(FindingGroups, UntriedConfigurationsCountTowardsTheirCause) {
 }
 
 TEST(FindingGroups, MoreCodeAndMoreMissesAreOneCause) {
-  judge::Observation with_misses = dearer;
+  judge::Observation with_misses = costlier;
   with_misses.changes.push_back({"misses", judge::Unit::misses, 1, 2, {}, 0});
   const std::vector<Finding> findings{
-      finding(regression, "gl:x", "step=1", dearer, Check::cost),
+      finding(regression, "gl:x", "step=1", costlier, Check::cost),
       finding(regression, "gl:x", "step=2", with_misses, Check::cost)};
   EXPECT_EQ(grouped(findings).size(), 1U);
 }
@@ -113,10 +115,10 @@ TEST(FindingGroups, ThreeTechniquesThatFailAlikeHaveOneCause) {
   EXPECT_EQ(groups[0].signature, "technique≠d");
   const std::vector<Finding> elsewhere{finding(regression, "gl:x", "technique=c,step=1"),
                                        finding(pass, "gl:x", "technique=a,step=1", within_bound())};
-  EXPECT_TRUE(have_one_cause(groups[0], grouped(elsewhere)[0]));
+  EXPECT_TRUE(have_same_cause(groups[0], grouped(elsewhere)[0]));
   const std::vector<Finding> other{finding(regression, "gl:x", "technique=e"),
                                    finding(pass, "gl:x", "technique=a", within_bound())};
-  EXPECT_FALSE(have_one_cause(groups[0], grouped(other)[0]));
+  EXPECT_FALSE(have_same_cause(groups[0], grouped(other)[0]));
 }
 
 TEST(FindingGroups, DevicesChecksVerdictsAndCausesAreSeparate) {
@@ -144,7 +146,7 @@ TEST(FindingGroups, ChangedCodeIsOneCauseOnAllDevices) {
   EXPECT_THAT(groups[0].devices, ElementsAre("gl:c", "vulkan:a", "vulkan:b"));
   EXPECT_EQ(groups[0].configurations, 2U);
   EXPECT_EQ(groups[0].first, &findings[2]);
-  EXPECT_THAT(groups[0].right_on, ElementsAre("opencl:d"));
+  EXPECT_THAT(groups[0].correct_devices, ElementsAre("opencl:d"));
   EXPECT_THAT(groups[1].devices, ElementsAre("gl:e"));
 }
 
@@ -164,7 +166,7 @@ TEST(FindingGroups, CountersOfAWrongImageAreReportedWithIt) {
       finding(regression, "gl:y", "step=2", changed("samples"), Check::counters)};
   const std::vector<FindingGroup> groups = grouped(findings);
   ASSERT_EQ(groups.size(), 2U);
-  EXPECT_EQ(groups[0].changed_with_it, 1U);
+  EXPECT_EQ(groups[0].changed_counters, 1U);
   EXPECT_EQ(groups[1].first, &findings[3]);
 }
 
@@ -187,7 +189,7 @@ TEST(FindingGroups, WorstFirstAndCausesBeforeConsequences) {
 }
 
 TEST(FindingGroups, CorrelationFindingsAreOmittedIfTheCostExplainsThem) {
-  std::vector<Finding> findings{finding(regression, "gl:x", "step=1", dearer, Check::cost),
+  std::vector<Finding> findings{finding(regression, "gl:x", "step=1", costlier, Check::cost),
                                 finding(regression, "gl:x", "step=1", off, Check::correlation),
                                 finding(regression, "gl:x", "", off, Check::correlation)};
   ASSERT_EQ(grouped(findings).size(), 1U);
@@ -198,11 +200,11 @@ TEST(FindingGroups, CorrelationFindingsAreOmittedIfTheCostExplainsThem) {
 }
 
 // The variables come from a store, which anybody may have written.
-TEST(Repeatable, ContainsNoVariableThatCouldRunCodeOrWriteFiles) {
+TEST(AllowedEnvironment, ContainsNoVariableThatCouldRunCodeOrWriteFiles) {
   using Variables = std::map<std::string, std::string>;
   const Variables harmless{
       {"GALLIUM_DRIVER", "llvmpipe"}, {"LP_NUM_THREADS", "1"}, {"MESA_GL_VERSION_OVERRIDE", "3.3"}};
-  EXPECT_EQ(repeatable(harmless), harmless);
+  EXPECT_EQ(allowed_environment(harmless), harmless);
   for (const auto& [name, value] : Variables{{"LD_PRELOAD", "evil.so"},
                                              {"PATH", "."},
                                              {"VK_DRIVER_FILES", "evil.json"},
@@ -216,13 +218,13 @@ TEST(Repeatable, ContainsNoVariableThatCouldRunCodeOrWriteFiles) {
                                              {"MESA_SHADER_DUMP_PATH", ".."},
                                              {"MESA_SHADER_CACHE_DIR", ".."},
                                              {"TRIPTYCH_DUMP", ".."}}) {
-    EXPECT_EQ(repeatable({{name, value}}), Variables()) << name;
+    EXPECT_EQ(allowed_environment({{name, value}}), Variables()) << name;
   }
   // A value that is set here anyway adds no risk.
   ::setenv("VK_DRIVER_FILES", "mine.json", 1);
-  EXPECT_EQ(repeatable({{"VK_DRIVER_FILES", "mine.json"}}),
+  EXPECT_EQ(allowed_environment({{"VK_DRIVER_FILES", "mine.json"}}),
             (Variables{{"VK_DRIVER_FILES", "mine.json"}}));
-  EXPECT_EQ(repeatable({{"VK_DRIVER_FILES", "evil.json"}}), Variables());
+  EXPECT_EQ(allowed_environment({{"VK_DRIVER_FILES", "evil.json"}}), Variables());
   ::unsetenv("VK_DRIVER_FILES");
 
   judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
@@ -252,7 +254,7 @@ TEST(CommandOf, RendersTheConfiguration) {
 // To reproduce a finding that is based on stored values, the command must also compare with them:
 // it judges a single configuration of the plan, with the plan argument that the user typed.
 TEST(CommandOf, JudgesFindingsAboutBaselinesAgain) {
-  const Finding cost = finding(regression, "gl:x", "step=1", dearer, Check::cost);
+  const Finding cost = finding(regression, "gl:x", "step=1", costlier, Check::cost);
   judge::GateResult mine{.plan = "mine", .run = "r", .findings = {}};
   EXPECT_EQ(command_of(cost, mine), "") << "a store does not contain the path of the plan file";
   mine.argument = "a b/mine.yaml";

@@ -75,11 +75,11 @@ bool is_known_attribute(const std::string& name) {
 
 // Returns the first element that Triptych does not generate, or an empty string. The page must
 // contain Triptych's own script and style sheet exactly once each.
-std::string stranger_in(std::string page) {
+std::string unknown_markup_in(std::string page) {
   for (const char* file : {"page.js", "style.css"}) {
-    const std::string ours(embedded(file));
-    const std::size_t at = page.find(ours);
-    if (at != std::string::npos) page.erase(at, ours.size());
+    const std::string own_text(embedded(file));
+    const std::size_t at = page.find(own_text);
+    if (at != std::string::npos) page.erase(at, own_text.size());
   }
   std::map<std::string, int> seen;
   for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at)) {
@@ -288,7 +288,7 @@ const std::vector<std::string>& strings() {
 TEST(HostilePage, EveryStringStaysText) {
   for (const std::string& each : strings()) {
     const std::string drawn = page_of(each);
-    EXPECT_EQ(stranger_in(drawn), "") << each;
+    EXPECT_EQ(unknown_markup_in(drawn), "") << each;
     EXPECT_THAT(drawn, testing::HasSubstr("</main>")) << each;
     for (const char* hidden : {"\x1b", "\u202E", "\u2066"}) {
       EXPECT_EQ(drawn.find(hidden), std::string::npos) << each;
@@ -301,7 +301,7 @@ TEST(HostilePage, AnInsertedElementIsFound) {
   for (const char* page :
        {"<p><blink>x</blink></p>", "<p onload=\"x\">", "<a href=\"javascript:x\">", "<p class=x>",
         "<img src=\"http://x\">", "<script>1</script><script>2</script>"}) {
-    EXPECT_NE(stranger_in(page), "") << page;
+    EXPECT_NE(unknown_markup_in(page), "") << page;
   }
 }
 
@@ -317,7 +317,7 @@ TEST(HostilePage, EveryStringOfAHistoryStaysText) {
       at["injected"] = Json::array({each});
       at["cost"] = 1.0;
     }
-    EXPECT_EQ(stranger_in(history_page(Json::array({device}))), "") << each;
+    EXPECT_EQ(unknown_markup_in(history_page(Json::array({device}))), "") << each;
   }
 }
 

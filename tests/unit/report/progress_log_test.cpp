@@ -125,9 +125,9 @@ TEST_F(ProgressLogTest, EscapesNames) {
 }
 
 TEST(RoughTime, IsRoundedUp) {
-  EXPECT_EQ(rough_time(seconds(119)), "119 s");
-  EXPECT_EQ(rough_time(seconds(121)), "3 min");
-  EXPECT_EQ(rough_time(seconds(7201)), "3 h");
+  EXPECT_EQ(rounded_duration(seconds(119)), "119 s");
+  EXPECT_EQ(rounded_duration(seconds(121)), "3 min");
+  EXPECT_EQ(rounded_duration(seconds(7201)), "3 h");
 }
 
 }  // namespace

@@ -118,11 +118,11 @@ class ScriptedStore {
          counts_differ ? changed("samples") : judge::Observation{.cause = judge::Cause::as_stored},
          counts_differ);
     if (crashed) return;
-    const bool dearer = wrong_ && device == "vulkan:lavapipe" && technique == "slices";
-    find(record, judge::Check::cost, changed("device_code"), dearer);
-    verdict_.findings.back().numbers = {{"ratio", dearer ? 1.02 : 1},
+    const bool costlier = wrong_ && device == "vulkan:lavapipe" && technique == "slices";
+    find(record, judge::Check::cost, changed("device_code"), costlier);
+    verdict_.findings.back().numbers = {{"ratio", costlier ? 1.02 : 1},
                                         {"device_code", 987654},
-                                        {"stored_device_code", dearer ? 968288 : 987654}};
+                                        {"stored_device_code", costlier ? 968288 : 987654}};
     find(record, judge::Check::timing, {.cause = judge::Cause::time}, false);
     verdict_.findings.back().numbers = {{"ratio", 0.9}};
   }

@@ -44,7 +44,7 @@ TEST(ShareOfBound, MarksTheWorstFirstWithoutOverlaps) {
   for (std::size_t i = 0; i < all.marks.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_GE(std::hypot(all.marks[i].x - all.marks[j].x, all.marks[i].y - all.marks[j].y),
-                2 * all.ring);
+                2 * all.ring_radius);
     }
   }
 }

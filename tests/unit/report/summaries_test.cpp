@@ -86,7 +86,7 @@ TEST(Junit, IsWellFormedForAnyInput) {
   }
 }
 
-TEST(Markdown, HasTheRowsAndCausesOfTheLastScreen) {
+TEST(Markdown, HasTheRowsAndCausesOfTheSummaryScreen) {
   const std::string text = markdown(some_result());
   EXPECT_TRUE(text.starts_with("## FAIL (1): volume/quick\n")) << text;
   EXPECT_THAT(text, HasSubstr("| Images | **FAIL** | gl:x: 1 of 1 checks wrong |"));

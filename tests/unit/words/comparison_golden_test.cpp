@@ -95,8 +95,9 @@ TEST(ComparisonSentences, OfEveryReasonForNoTime) {
     text += fmt::format("{}: {}\n", name_of(cause), words::text_of(cause));
   });
   text += words::nothing_compared({}) + "\n";
-  text += words::text_of(comparison::OnlyOne{.plan = "volume/quick", .device = {}}) + "\n";
-  text += words::text_of(comparison::OnlyOne{.plan = "volume/quick", .device = "gl:x"}) + "\n";
+  text += words::text_of(comparison::OneSidedEntry{.plan = "volume/quick", .device = {}}) + "\n";
+  text +=
+      words::text_of(comparison::OneSidedEntry{.plan = "volume/quick", .device = "gl:x"}) + "\n";
   text += words::fails_differently(over_bound(16), crashed(11)) + "\n";
   text += words::fails_differently(over_bound(16), {}) + "\n";
   expect_golden("no_time.txt", text);

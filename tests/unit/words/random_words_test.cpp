@@ -96,11 +96,11 @@ class RandomWords : public GateTest {
     // The overview contains pointers to these results, so they must outlive it.
     const std::vector<GateResult> results{result};
     const report::Overview all = report::overview(results);
-    for (const auto* causes : {&all.open, &all.aside}) {
+    for (const auto* causes : {&all.open, &all.remarks}) {
       for (const report::Cause& cause : *causes) {
         text += fmt::format("group of {}: {} {} {}\n", cause.group.configurations,
                             cause.group.first->configuration, cause.group.signature,
-                            static_cast<int>(cause.group.blame().of));
+                            static_cast<int>(cause.group.attribution().kind));
       }
     }
     return text;

@@ -3,7 +3,7 @@
 
 #include "findings.hpp"
 #include "golden.hpp"
-#include "report/screen/last_screen.hpp"
+#include "report/screen/summary_screen.hpp"
 
 namespace triptych::report {
 namespace {
@@ -37,8 +37,8 @@ judge::GateResult result_with(Check check, judge::Verdict verdict, const judge::
 
 void expect_screen(const std::string& name, const judge::GateResult& result) {
   expect_golden(name + ".txt",
-                last_screen(std::vector{result}, 88, std::vector<std::string>{"out/report.html"},
-                            {.width = 80}));
+                summary_screen(std::vector{result}, 88, std::vector<std::string>{"out/report.html"},
+                               {.width = 80}));
 }
 
 TEST(Screens, Pass) {

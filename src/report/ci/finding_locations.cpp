@@ -1,4 +1,4 @@
-#include "report/ci/places.hpp"
+#include "report/ci/finding_locations.hpp"
 
 #include <algorithm>
 #include <system_error>
@@ -19,7 +19,7 @@ using judge::Layout;
 
 // Returns the file of a plan's baselines that contains the values of the check. Returns "" if the
 // file depends on the device and the device is not known.
-std::string stored_in(Check check, const record::Device* device) {
+std::string baselines_file(Check check, const record::Device* device) {
   switch (check) {
     case Check::image:
       return Layout::images;
@@ -54,9 +54,9 @@ std::size_t line_of(const std::string& text, const std::string& key) {
 
 }  // namespace
 
-FindingPlaces::FindingPlaces(Sources sources) : sources_(std::move(sources)) {}
+FindingLocations::FindingLocations(Sources sources) : sources_(std::move(sources)) {}
 
-std::string FindingPlaces::in_repository(const fs::path& file) const {
+std::string FindingLocations::in_repository(const fs::path& file) const {
   std::error_code error;  // a path that cannot be resolved is not in the repository
   const fs::path found = fs::weakly_canonical(file, error);
   if (error) return {};
@@ -67,7 +67,7 @@ std::string FindingPlaces::in_repository(const fs::path& file) const {
                                                                            : relative;
 }
 
-const std::string& FindingPlaces::text_of(const fs::path& file) const {
+const std::string& FindingLocations::text_of(const fs::path& file) const {
   const auto [entry, is_new] = texts_.try_emplace(file);
   if (is_new && fs::is_regular_file(file)) {
     try {
@@ -79,13 +79,13 @@ const std::string& FindingPlaces::text_of(const fs::path& file) const {
   return entry->second;
 }
 
-SourcePlace FindingPlaces::of(const judge::Finding& finding,
-                              const judge::GateResult& result) const {
+SourceLocation FindingLocations::of(const judge::Finding& finding,
+                                    const judge::GateResult& result) const {
   const auto device = sources_.devices.find(finding.device);
   const fs::path folder = sources_.baselines / result.plan;
-  const std::string own =
-      stored_in(finding.check, device == sources_.devices.end() ? nullptr : &device->second);
-  for (const std::string& name : std::vector<std::string>{own, Layout::counters}) {
+  const std::string baselines_name =
+      baselines_file(finding.check, device == sources_.devices.end() ? nullptr : &device->second);
+  for (const std::string& name : std::vector<std::string>{baselines_name, Layout::counters}) {
     if (name.empty()) continue;
     const std::string file = in_repository(folder / name);
     if (file.empty()) continue;

@@ -1,4 +1,4 @@
-#include "report/screen/last_screen.hpp"
+#include "report/screen/summary_screen.hpp"
 
 #include <fmt/format.h>
 
@@ -16,13 +16,13 @@ namespace {
 
 using judge::Verdict;
 
-constexpr std::size_t most_lines = 40;
-constexpr std::size_t least_width = 40;
-constexpr std::size_t longest_command = 600;
-constexpr std::size_t longest_message = 3;  // lines
-constexpr std::size_t most_waived = 3;
-constexpr std::size_t most_circumstances = 5;
-constexpr std::size_t longest_circumstance = 2;  // lines
+constexpr std::size_t max_lines = 40;
+constexpr std::size_t min_width = 40;
+constexpr std::size_t max_command_width = 600;
+constexpr std::size_t max_message_lines = 3;  // lines
+constexpr std::size_t max_waived = 3;
+constexpr std::size_t max_circumstances = 5;
+constexpr std::size_t max_circumstance_lines = 2;  // lines
 
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -57,13 +57,13 @@ std::string time_text(double seconds) {
 class Screen {
  public:
   explicit Screen(const ScreenOptions& options)
-      : options_(options), width_(std::max(options.width, least_width)) {}
+      : options_(options), width_(std::max(options.width, min_width)) {}
 
   std::string text(const Overview& all, double seconds, std::span<const std::string> files) {
     head(all, seconds);
-    for (const KindRow& row : all.rows) {
+    for (const CheckRow& row : all.rows) {
       const std::string pad(11 - std::min<std::size_t>(11, width_of(row.verdict)), ' ');
-      add(fmt::format("  {:<12}{}{}{}", row.kind, coloured(row.verdict, row.worst), pad,
+      add(fmt::format("  {:<12}{}{}{}", row.label, coloured(row.verdict, row.worst), pad,
                       core::printable(row.sentence, width_ - 25)));
     }
     add("");
@@ -94,7 +94,7 @@ class Screen {
         fmt::format("Triptych   {} {} · {}{}", all.devices, all.devices == 1 ? "device" : "devices",
                     time_text(seconds), all.part ? " · only part of the plans was judged" : "");
     const std::string right =
-        fmt::format("{} ({})", words::word_of(all.code), static_cast<int>(all.code));
+        fmt::format("{} ({})", words::verdict_word(all.code), static_cast<int>(all.code));
     const std::size_t used = width_of(left) + width_of(right);
     add(left + std::string(used + 3 < width_ ? width_ - used : 3, ' ') +
         coloured(right, verdict_of(all.code)));
@@ -121,11 +121,11 @@ class Screen {
 
   // Adds the circumstances (report/circumstances.hpp). They are shown even for a pass.
   void circumstances(const Overview& all) {
-    const std::size_t shown = std::min(most_circumstances, all.circumstances.size());
+    const std::size_t shown = std::min(max_circumstances, all.circumstances.size());
     for (std::size_t i = 0; i < shown; ++i) {
       std::vector<std::string> lines;
       append_wrapped(
-          lines, core::printable(all.circumstances[i], longest_circumstance * (width_ - 6)), "");
+          lines, core::printable(all.circumstances[i], max_circumstance_lines * (width_ - 6)), "");
       lines.front().replace(0, 3, "  !");
       for (const std::string& line : lines) add(line);
     }
@@ -140,12 +140,12 @@ class Screen {
   // readers must know which failures a pass excuses.
   void waived(const Overview& all) {
     std::size_t shown = 0;
-    for (const Cause& cause : all.aside) {
-      if (cause.group.first->verdict != Verdict::waived || ++shown > most_waived) continue;
-      add(core::printable(fmt::format("  – {}: {}", words::place(cause), words::found(cause)),
+    for (const Cause& cause : all.remarks) {
+      if (cause.group.first->verdict != Verdict::waived || ++shown > max_waived) continue;
+      add(core::printable(fmt::format("  – {}: {}", words::location(cause), words::found(cause)),
                           width_));
     }
-    if (shown > most_waived) add(fmt::format("  – {} more causes are waived", shown - most_waived));
+    if (shown > max_waived) add(fmt::format("  – {} more causes are waived", shown - max_waived));
     if (shown > 0) add("");
   }
 
@@ -156,7 +156,7 @@ class Screen {
     std::size_t shown = 0;
     for (const Cause& cause : all.open) {
       const std::vector<std::string> lines = lines_of(cause);
-      if (lines_ + lines.size() + 2 + below > most_lines) break;
+      if (lines_ + lines.size() + 2 + below > max_lines) break;
       for (const std::string& line : lines) add(line);
       add("");
       ++shown;
@@ -173,12 +173,12 @@ class Screen {
     const judge::Finding& first = *cause.group.first;
     std::vector<std::string> lines{fmt::format(
         "  {} {}", sign_of(first),
-        core::printable(fmt::format("{}: {}", judge::name_of(first.check), words::place(cause)),
+        core::printable(fmt::format("{}: {}", judge::name_of(first.check), words::location(cause)),
                         width_ - 4))};
     append_wrapped(lines, message_of(cause), "");
     const std::string command = command_of(first, *cause.result);
     // A command is never shortened, because that would turn it into a different command.
-    if (width_of(command) > longest_command) {
+    if (width_of(command) > max_command_width) {
       lines.emplace_back(
           "    (the command is too long for a terminal; the HTML report contains it)");
     } else if (!command.empty()) {
@@ -197,10 +197,11 @@ class Screen {
   // whether the driver is at fault.
   [[nodiscard]] std::string message_of(const Cause& cause) const {
     std::string rest;
-    for (const std::string& each : {words::advice(*cause.group.first), words::blame(cause.group)}) {
+    for (const std::string& each :
+         {words::advice(*cause.group.first), words::attribution(cause.group)}) {
       if (!each.empty()) rest += "; " + core::printable(each);
     }
-    const std::size_t room = longest_message * (width_ - 6);
+    const std::size_t room = max_message_lines * (width_ - 6);
     const std::size_t left = room > 2 * width_of(rest) ? room - width_of(rest) : room / 2;
     return core::printable(words::found(cause), left) + rest;
   }
@@ -213,7 +214,7 @@ class Screen {
     std::string line;
     bool quoted = false;
     std::string word;
-    const auto put = [&] {
+    const auto flush_word = [&] {
       if (!line.empty() && width_of(line) + 1 + width_of(word) + 4 + end.size() > width_) {
         lines.push_back("    " + line + std::string(end));
         line = end.empty() ? "" : "  ";
@@ -228,12 +229,12 @@ class Screen {
                                  word.find(' ') == std::string::npos && i + 1 < text.size() &&
                                  text[i + 1] != '-';
       if (c == ' ' && !quoted && !value_follows) {
-        put();
+        flush_word();
       } else {
         word += c;
       }
     }
-    put();
+    flush_word();
     lines.push_back("    " + line);
   }
 
@@ -254,8 +255,8 @@ class Screen {
 
 }  // namespace
 
-std::string last_screen(std::span<const judge::GateResult> results, double seconds,
-                        std::span<const std::string> files, const ScreenOptions& options) {
+std::string summary_screen(std::span<const judge::GateResult> results, double seconds,
+                           std::span<const std::string> files, const ScreenOptions& options) {
   return Screen(options).text(overview(results), seconds, files);
 }
 

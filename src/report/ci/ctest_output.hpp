@@ -14,11 +14,11 @@ namespace triptych::report {
 // Returns the findings that do not pass, the numbers of the worst finding, and a one-line summary.
 // If `truth` is not empty, also writes the device image, the reference image and the difference
 // image for the worst finding to a temporary folder and adds their paths.
-[[nodiscard]] std::string ctest_answer(const judge::GateResult& result, const record::Store& store,
+[[nodiscard]] std::string ctest_output(const judge::GateResult& result, const record::Store& store,
                                        const judge::FindTruth& truth);
 
 // Returns the reason why the test counts as skipped, or nullopt if it does not. A check with only
 // advisories and skips has judged nothing, so it must not count as a pass.
-[[nodiscard]] std::optional<std::string> reason_to_skip(const judge::GateResult& result);
+[[nodiscard]] std::optional<std::string> skip_reason(const judge::GateResult& result);
 
 }  // namespace triptych::report

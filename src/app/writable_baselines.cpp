@@ -1,4 +1,4 @@
-#include "app/own_baselines.hpp"
+#include "app/writable_baselines.hpp"
 
 #include <system_error>
 
@@ -10,8 +10,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* own_folder = "baselines";
-constexpr const char* starting_folder = ".baselines.starting";
+constexpr const char* default_folder = "baselines";
+constexpr const char* temporary_folder = ".baselines.starting";
 
 // Copies a folder. Installed files may be read-only, but the copies are writable.
 void copy_tree(const fs::path& from, const fs::path& to) {
@@ -29,27 +29,27 @@ void copy_tree(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
-OwnBaselines::OwnBaselines(const std::string& named)
-    : name_(named.empty() ? own_folder : named), working_(name_) {
+WritableBaselines::WritableBaselines(const std::string& named)
+    : name_(named.empty() ? default_folder : named), working_(name_) {
   if (!named.empty() || fs::exists(fs::symlink_status(name_))) return;
   const fs::path installed = default_baselines();
   if (!fs::is_directory(installed)) return;
   try {
-    fs::remove_all(starting_folder);
-    copy_tree(installed, starting_folder);
+    fs::remove_all(temporary_folder);
+    copy_tree(installed, temporary_folder);
   } catch (const fs::filesystem_error& error) {
     throw core::IoError(error.what());
   }
-  working_ = starting_folder;
+  working_ = temporary_folder;
   copied_from_ = installed;
 }
 
-OwnBaselines::~OwnBaselines() {
+WritableBaselines::~WritableBaselines() {
   std::error_code ignored;  // the next `accept` replaces files that could not be removed
   if (working_ != name_) fs::remove_all(working_, ignored);
 }
 
-void OwnBaselines::keep() {
+void WritableBaselines::commit() {
   if (working_ == name_) return;
   try {
     fs::rename(working_, name_);

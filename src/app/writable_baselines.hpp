@@ -9,14 +9,14 @@ namespace triptych::app {
 // The folder that the user names, or ./baselines by default. The baselines that were installed with
 // the program are never changed. If ./baselines does not exist, the installed baselines are copied
 // to a temporary folder, which is renamed to ./baselines when all plans have been accepted.
-class OwnBaselines {
+class WritableBaselines {
  public:
   // `named` is the option's value. If it is empty, ./baselines is used.
-  explicit OwnBaselines(const std::string& named);
-  // Removes the copy if keep() was not called.
-  ~OwnBaselines();
-  OwnBaselines(const OwnBaselines&) = delete;
-  OwnBaselines& operator=(const OwnBaselines&) = delete;
+  explicit WritableBaselines(const std::string& named);
+  // Removes the copy if commit() was not called.
+  ~WritableBaselines();
+  WritableBaselines(const WritableBaselines&) = delete;
+  WritableBaselines& operator=(const WritableBaselines&) = delete;
 
   // Returns the folder to write to.
   [[nodiscard]] const std::filesystem::path& folder() const { return working_; }
@@ -26,7 +26,7 @@ class OwnBaselines {
   // copied.
   [[nodiscard]] const std::filesystem::path& copied_from() const { return copied_from_; }
   // Makes the copy permanent. Call this after all plans have been accepted.
-  void keep();
+  void commit();
 
  private:
   std::filesystem::path name_;

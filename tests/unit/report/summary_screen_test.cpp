@@ -1,4 +1,4 @@
-#include "report/screen/last_screen.hpp"
+#include "report/screen/summary_screen.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -46,15 +46,15 @@ GateResult passing() {
   return result;
 }
 
-TEST(LastScreen, OfAPassIsShort) {
+TEST(SummaryScreen, OfAPassIsShort) {
   GateResult result = passing();
-  const std::string text = last_screen(std::vector{result}, 3, {});
+  const std::string text = summary_screen(std::vector{result}, 3, {});
   EXPECT_THAT(text, HasSubstr("PASS (0)"));
   EXPECT_LE(std::ranges::count(text, '\n'), 10);
 }
 
 // If no image comes close to its bound, the bound is a weak test, and the screen must show that.
-TEST(LastScreen, ShowsHowCloseImagesAreToTheirBounds) {
+TEST(SummaryScreen, ShowsHowCloseImagesAreToTheirBounds) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (const auto& [device, ratio] :
        {std::pair("gl:x", 0.61), {"gl:x", 0.2}, {"opencl:y", 0.003}}) {
@@ -63,7 +63,7 @@ TEST(LastScreen, ShowsHowCloseImagesAreToTheirBounds) {
   }
   add(result, Check::image, pass, "", "", {.cause = judge::Cause::reference_as_stored});
   result.findings.back().numbers["ratio"] = 7;  // without a device, so it is not shown
-  EXPECT_THAT(last_screen(std::vector{result}, 3, {}, {.width = 120}),
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}, {.width = 120}),
               HasSubstr("3 within their error bounds; error / bound ≤ 0.61 (≤ 0.003 on opencl:y in "
                         "volume/quick)\n"));
   const auto all = overview(std::vector{result});
@@ -75,27 +75,27 @@ TEST(LastScreen, ShowsHowCloseImagesAreToTheirBounds) {
 }
 
 // A waived finding must not be counted as an image within its bound.
-TEST(LastScreen, ListsWaivedFindings) {
+TEST(SummaryScreen, ListsWaivedFindings) {
   GateResult result = passing();
   result.findings.back().numbers["ratio"] = 0.5;
   add(result, Check::image, waived, "gl:x", "step=2", over_bound(3));
   result.findings.back().excuse = {
       .kind = judge::Excuse::Kind::waived, .reason = "known", .expiry = "2027-01-01"};
   result.findings.back().numbers["ratio"] = 4e5;
-  const std::string text = last_screen(std::vector{result}, 3, {});
+  const std::string text = summary_screen(std::vector{result}, 3, {});
   EXPECT_THAT(text, HasSubstr("1 within their error bounds; 1 waived; error / bound ≤ 0.5\n"));
   EXPECT_THAT(text, HasSubstr("\n  – gl:x, step=2: waived until 2027-01-01 (known): 3 of"));
 }
 
 // These circumstances may make a pass worthless.
-TEST(LastScreen, ListsTheCircumstancesOfAPass) {
+TEST(SummaryScreen, ListsTheCircumstancesOfAPass) {
   GateResult result = passing();
-  EXPECT_THAT(last_screen(std::vector{result}, 3, {}), Not(HasSubstr("  ! ")));
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}), Not(HasSubstr("  ! ")));
   result.injected = {{"slowdown:20", 4}};
   result.measured_by = "build a; judged by build b";
   result.old_run_date = "2026-02-01";
   result.unusable = {{"Vulkan", "no loader", {}}};
-  const std::string text = last_screen(std::vector{result}, 3, {}, {.width = 120});
+  const std::string text = summary_screen(std::vector{result}, 3, {}, {.width = 120});
   EXPECT_THAT(text, HasSubstr("PASS (0)"));
   EXPECT_THAT(text, HasSubstr("4 records have injected faults (slowdown:20)"));
   EXPECT_THAT(text, HasSubstr("another build of Triptych: build a; judged by build b"));
@@ -103,80 +103,80 @@ TEST(LastScreen, ListsTheCircumstancesOfAPass) {
   EXPECT_THAT(text, HasSubstr("unusable on this machine: Vulkan: no loader"));
 }
 
-TEST(LastScreen, StatesWhetherTimesDecided) {
+TEST(SummaryScreen, StatesWhetherTimesDecided) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   add(result, Check::timing, pass, "gl:x", "step=1", {.cause = judge::Cause::time});
   add(result, Check::timing, advisory, "gl:x", "", {.cause = judge::Cause::times});
-  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}),
               HasSubstr("  Times       –          1 shown, not judged; 1 with an advisory\n"));
   result.times_decided = true;
-  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}),
               HasSubstr("  Times       pass       1 not slower; 1 with an advisory\n"));
 }
 
-TEST(LastScreen, StatesThatOnlyAPartWasJudged) {
+TEST(SummaryScreen, StatesThatOnlyAPartWasJudged) {
   GateResult result = passing();
-  EXPECT_THAT(last_screen(std::vector{result}, 3, {}), Not(HasSubstr("a part")));
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}), Not(HasSubstr("a part")));
   result.part = true;
-  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}),
               HasSubstr("Triptych   1 device · 3 s · only part of the plans"));
 }
 
-TEST(LastScreen, WithoutAVerdictShowsWhatIsCorrect) {
+TEST(SummaryScreen, WithoutAVerdictShowsWhatIsCorrect) {
   GateResult result = passing();
   add(result, Check::image, cannot_judge, "", "", {.cause = judge::Cause::no_required_device});
-  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}),
               HasSubstr("the plan: 1 of 1 checks not judged; 1 within their error bounds"));
 }
 
-TEST(LastScreen, OfNoFindingsDoesNotPass) {
-  EXPECT_THAT(last_screen({}, 0, {}), HasSubstr("CANNOT JUDGE (2)"));
+TEST(SummaryScreen, OfNoFindingsDoesNotPass) {
+  EXPECT_THAT(summary_screen({}, 0, {}), HasSubstr("CANNOT JUDGE (2)"));
 }
 
-TEST(LastScreen, ShowsTheWorstVerdictOfAllPlans) {
+TEST(SummaryScreen, ShowsTheWorstVerdictOfAllPlans) {
   GateResult good{.plan = "particles/quick", .run = "r", .findings = {}};
   add(good, Check::image, pass, "gl:x", "step=1", within_bound());
-  const std::string text = last_screen(std::vector{good, failing(), good}, 3, {});
+  const std::string text = summary_screen(std::vector{good, failing(), good}, 3, {});
   EXPECT_THAT(text, HasSubstr("FAIL (1)"));
   EXPECT_THAT(text, HasSubstr("3 devices"));
 }
 
-TEST(LastScreen, HasAtMostFortyLinesAndReportsOmissions) {
+TEST(SummaryScreen, HasAtMostFortyLinesAndReportsOmissions) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (int i = 0; i < 60; ++i) {
     add(result, Check::image, regression, fmt::format("gl:x#{}", i), "step=1", over_bound(1));
   }
   const std::string text =
-      last_screen(std::vector{result}, 3, std::vector<std::string>{"page"}, {.width = 120});
+      summary_screen(std::vector{result}, 3, std::vector<std::string>{"page"}, {.width = 120});
   EXPECT_LE(std::ranges::count(text, '\n'), 40);
   EXPECT_THAT(text, HasSubstr("more causes"));
   EXPECT_THAT(text, HasSubstr("; 57 more devices"));
 }
 
-TEST(LastScreen, RefersToTheOtherCausesAndAdvice) {
+TEST(SummaryScreen, RefersToTheOtherCausesAndAdvice) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   for (int i = 0; i < 60; ++i) {
     add(result, Check::image, cannot_judge, fmt::format("gl:x#{}", i), "step=1",
         quoting(std::string(400, 'x')));
     result.findings.back().advice = {judge::Advice::accept, "triptych accept PLAN"};
   }
-  const std::string text = last_screen(std::vector{result}, 3, {}, {.width = 120});
+  const std::string text = summary_screen(std::vector{result}, 3, {}, {.width = 120});
   EXPECT_THAT(text, HasSubstr("more causes: use --out FOLDER to write them to files"));
   EXPECT_THAT(text, HasSubstr("accept the run with triptych accept PLAN"));
 }
 
-TEST(LastScreen, ColoursOnlyWhenAsked) {
+TEST(SummaryScreen, ColoursOnlyWhenAsked) {
   const std::vector<GateResult> results{failing()};
-  EXPECT_EQ(last_screen(results, 3, {}).find('\x1b'), std::string::npos);
-  EXPECT_THAT(last_screen(results, 3, {}, {.colours = true}), HasSubstr("\x1b[1;31mFAIL"));
+  EXPECT_EQ(summary_screen(results, 3, {}).find('\x1b'), std::string::npos);
+  EXPECT_THAT(summary_screen(results, 3, {}, {.colours = true}), HasSubstr("\x1b[1;31mFAIL"));
 }
 
-TEST(LastScreen, EscapesNames) {
+TEST(SummaryScreen, EscapesNames) {
   for (const std::string& name : test::hostile_strings()) {
     GateResult result{.plan = name, .run = "r", .findings = {}};
     add(result, Check::image, regression, name, "step=" + name, quoting(name));
     add(result, Check::image, regression, "", "", quoting(name));
-    const std::string text = last_screen(std::vector{result}, 3, std::vector{name});
+    const std::string text = summary_screen(std::vector{result}, 3, std::vector{name});
     EXPECT_EQ(text.find('\x1b'), std::string::npos);
     EXPECT_THAT(text, Not(HasSubstr("line\nend")));
     EXPECT_LE(std::ranges::count(text, '\n'), 40);
@@ -184,31 +184,31 @@ TEST(LastScreen, EscapesNames) {
   }
 }
 
-TEST(LastScreen, RepeatsTheEnvironment) {
+TEST(SummaryScreen, RepeatsTheEnvironment) {
   GateResult result = failing();
   result.environments = {{"vulkan:lavapipe", {{"LP_NUM_THREADS", "2"}}}};
-  EXPECT_THAT(last_screen(std::vector{result}, 3, {}),
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}),
               HasSubstr("LP_NUM_THREADS=2 triptych render"));
 }
 
 // Accepting a baseline cannot correct an image, so the screen proposes it only for changed values.
-TEST(LastScreen, SuggestsTheNextStep) {
-  const std::string wrong = last_screen(std::vector{failing()}, 3, {});
+TEST(SummaryScreen, SuggestsTheNextStep) {
+  const std::string wrong = summary_screen(std::vector{failing()}, 3, {});
   EXPECT_THAT(wrong,
               HasSubstr("next: for a bug report, replace `render` by `reduce` in the command"));
   EXPECT_THAT(wrong, Not(HasSubstr("triptych accept")));
   GateResult counted{.plan = "volume/quick", .run = "r", .findings = {}};
   add(counted, Check::counters, regression, "gl:x", "step=1", changed("samples"));
-  EXPECT_THAT(last_screen(std::vector{counted}, 3, {}, {.store_option = " --store s.sqlite"}),
+  EXPECT_THAT(summary_screen(std::vector{counted}, 3, {}, {.store_option = " --store s.sqlite"}),
               HasSubstr("triptych accept volume/quick --store s.sqlite --reason TEXT\n"));
-  EXPECT_THAT(last_screen(std::vector{passing()}, 3, {}), Not(HasSubstr("next:")));
+  EXPECT_THAT(summary_screen(std::vector{passing()}, 3, {}), Not(HasSubstr("next:")));
 }
 
 // A single driver bug typically affects every plan.
-TEST(LastScreen, OneCauseInSeveralPlansIsReportedOnce) {
+TEST(SummaryScreen, OneCauseInSeveralPlansIsReportedOnce) {
   GateResult stress{.plan = "volume/stress", .run = "r", .findings = {}};
   add(stress, Check::image, regression, "vulkan:lavapipe", "technique=raycast", over_bound(3));
-  const std::string text = last_screen(std::vector{failing(), stress}, 3, {});
+  const std::string text = summary_screen(std::vector{failing(), stress}, 3, {});
   EXPECT_THAT(text, HasSubstr("vulkan:lavapipe (7 configurations)"));
   // The screen describes the worst configuration, but its command reproduces the smallest.
   EXPECT_THAT(text, HasSubstr("image on vulkan:lavapipe: 11144 of 36864 pixels"));
@@ -219,11 +219,11 @@ TEST(LastScreen, OneCauseInSeveralPlansIsReportedOnce) {
   EXPECT_EQ(text.find("✗", text.find("\n\n")), text.rfind("✗"));
 
   stress.findings.front().configuration = "technique=slices";
-  EXPECT_THAT(last_screen(std::vector{failing(), stress}, 3, {}), HasSubstr("technique=slices"))
+  EXPECT_THAT(summary_screen(std::vector{failing(), stress}, 3, {}), HasSubstr("technique=slices"))
       << "another technique may fail for another cause";
 }
 
-TEST(LastScreen, CrashesAreOneCauseInAllPlans) {
+TEST(SummaryScreen, CrashesAreOneCauseInAllPlans) {
   std::vector<GateResult> results;
   for (const char* plan : {"volume/quick", "volume/stress", "particles/quick"}) {
     results.push_back({.plan = plan, .run = "r", .findings = {}});
@@ -231,18 +231,18 @@ TEST(LastScreen, CrashesAreOneCauseInAllPlans) {
         ended(record::Outcome::failed,
               {.cause = record::Cause::error, .detail = "no OpenGL 3.3 core context"}));
   }
-  const std::string text = last_screen(results, 3, {});
+  const std::string text = summary_screen(results, 3, {});
   EXPECT_THAT(text, HasSubstr("✗ image: gl:x (3 configurations)"));
   EXPECT_EQ(text.find("no OpenGL", text.find("\n\n")), text.rfind("no OpenGL"));
 }
 
-TEST(LastScreen, UnmeasuredPlansAreOneCause) {
+TEST(SummaryScreen, UnmeasuredPlansAreOneCause) {
   std::vector<GateResult> results;
   for (const char* plan : {"volume/quick", "volume/stress", "particles/quick"}) {
     results.push_back({.plan = plan, .run = "", .findings = {}});
     add(results.back(), Check::image, cannot_judge, "", "", {.cause = judge::Cause::no_run});
   }
-  EXPECT_THAT(last_screen(results, 3, {}), HasSubstr("? image: volume/quick and 2 more"));
+  EXPECT_THAT(summary_screen(results, 3, {}), HasSubstr("? image: volume/quick and 2 more"));
 }
 
 }  // namespace

@@ -17,8 +17,8 @@ struct ScreenOptions {
 // for each check over all plans, the findings grouped by cause, each with a command that reproduces
 // it, the names of written files, and the meaning of the exit code. `seconds` is the run time of
 // the command.
-[[nodiscard]] std::string last_screen(std::span<const judge::GateResult> results, double seconds,
-                                      std::span<const std::string> files,
-                                      const ScreenOptions& options = {});
+[[nodiscard]] std::string summary_screen(std::span<const judge::GateResult> results, double seconds,
+                                         std::span<const std::string> files,
+                                         const ScreenOptions& options = {});
 
 }  // namespace triptych::report

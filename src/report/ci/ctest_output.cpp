@@ -1,4 +1,4 @@
-#include "report/ci/ctest_answer.hpp"
+#include "report/ci/ctest_output.hpp"
 
 #include <fmt/format.h>
 
@@ -58,7 +58,7 @@ std::string image_elements(const record::Store& store, const std::string& run,
 
 }  // namespace
 
-std::string ctest_answer(const judge::GateResult& result, const record::Store& store,
+std::string ctest_output(const judge::GateResult& result, const record::Store& store,
                          const judge::FindTruth& truth) {
   std::string text;
   for (const judge::Finding& finding : result.findings) {
@@ -75,17 +75,18 @@ std::string ctest_answer(const judge::GateResult& result, const record::Store& s
   return text + words::headline(result) + "\n";
 }
 
-std::optional<std::string> reason_to_skip(const judge::GateResult& result) {
+std::optional<std::string> skip_reason(const judge::GateResult& result) {
   std::string reason;
   for (const judge::Finding& finding : result.findings) {
-    const bool idle =
+    const bool decides_nothing =
         finding.verdict == judge::Verdict::advisory || finding.verdict == judge::Verdict::skipped;
     // A pass about a whole device only summarizes other findings, so it judges nothing itself. The
     // check `correlation` is an exception.
-    const bool sums_up = finding.verdict == judge::Verdict::pass && finding.configuration.empty() &&
-                         finding.check != judge::Check::correlation;
-    if (!idle && !sums_up) return std::nullopt;
-    if (idle && reason.empty()) reason = words::text_of(finding);
+    const bool is_summary = finding.verdict == judge::Verdict::pass &&
+                            finding.configuration.empty() &&
+                            finding.check != judge::Check::correlation;
+    if (!decides_nothing && !is_summary) return std::nullopt;
+    if (decides_nothing && reason.empty()) reason = words::text_of(finding);
   }
   if (reason.empty()) return std::nullopt;
   return reason;

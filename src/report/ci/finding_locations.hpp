@@ -12,12 +12,12 @@
 
 namespace triptych::report {
 
-struct SourcePlace {
+struct SourceLocation {
   std::string file;  // relative to the repository; empty if there is no place
   std::size_t line = 1;
 };
 
-class FindingPlaces {
+class FindingLocations {
  public:
   struct Sources {
     std::filesystem::path repository;  // the root folder of the repository
@@ -26,13 +26,13 @@ class FindingPlaces {
     std::string job = {};  // the file that defines the CI job, relative to the repository
   };
 
-  explicit FindingPlaces(Sources sources);
+  explicit FindingLocations(Sources sources);
 
   // Returns the line of the stored value with which the configuration was compared, if its file is
   // in the repository. Otherwise returns the first line of the baselines' manifest, of the plan's
   // file, or of the file that defines the CI job.
-  [[nodiscard]] SourcePlace of(const judge::Finding& finding,
-                               const judge::GateResult& result) const;
+  [[nodiscard]] SourceLocation of(const judge::Finding& finding,
+                                  const judge::GateResult& result) const;
 
  private:
   [[nodiscard]] std::string in_repository(const std::filesystem::path& file) const;
