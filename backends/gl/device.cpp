@@ -45,7 +45,7 @@ const Entry* find(std::string_view technique) {
   return nullptr;
 }
 
-class GlDevice final : public measure::Device, public measure::ProbesFeatures {
+class GlDevice final : public measure::Device, public measure::FeatureProber {
  public:
   GlDevice(record::Device info, std::unique_ptr<Context> context)
       : info_(std::move(info)),

@@ -8,7 +8,7 @@
 namespace triptych::gl_backend {
 namespace {
 
-class DrawingPrepared final : public measure::Prepared, public measure::TracesPixel {
+class DrawingPrepared final : public measure::Prepared, public measure::PixelTracer {
  public:
   DrawingPrepared(Context& context, Stamps stamps, std::unique_ptr<Drawing> drawing)
       : context_(context),

@@ -38,9 +38,9 @@ class Drawing {
   [[nodiscard]] virtual core::Image read(const Api& gl) const = 0;
   [[nodiscard]] virtual std::string kernel_hash() const = 0;
 
-  // Draws a frame that records the history of pixel (x, y), as measure::TracesPixel describes.
+  // Draws a frame that records the history of pixel (x, y), as measure::PixelTracer describes.
   [[nodiscard]] virtual technique::RayTrace trace(const Api& /*gl*/, int /*x*/, int /*y*/) {
-    throw core::NotSupported(measure::not_traced);
+    throw core::NotSupported(measure::pixel_history_unsupported);
   }
 };
 

@@ -111,7 +111,7 @@ class VolumeDrawing final : public Drawing {
   [[nodiscard]] std::string kernel_hash() const override { return kernel_hash_; }
 
   [[nodiscard]] technique::RayTrace trace(const Api& gl, int x, int y) override {
-    if (constants_.cells) throw core::NotSupported(measure::not_traced);
+    if (constants_.cells) throw core::NotSupported(measure::pixel_history_unsupported);
     const std::vector<std::uint32_t> words = technique::ray_trace_words_for(x, y, width_, pixels_);
     const auto size = static_cast<GLsizeiptr>(words.size() * sizeof(GLuint));
     Constants constants = constants_;

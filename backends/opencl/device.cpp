@@ -46,7 +46,7 @@ Session open_session(const Found& found) {
   });
 }
 
-class Device final : public measure::Device, public measure::ProbesFeatures {
+class Device final : public measure::Device, public measure::FeatureProber {
  public:
   explicit Device(Found found)
       : info_(std::move(found.info)),

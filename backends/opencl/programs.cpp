@@ -8,7 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "measure/code/standard_error.hpp"
+#include "measure/code/capture_stderr.hpp"
 #include "measure/contract/dump.hpp"
 #include "technique/sources.hpp"
 #include "triptych_backend_opencl_embedded.hpp"
@@ -82,7 +82,7 @@ cl::Program Programs::get(const std::string& source, const std::string& options)
   CapturedProgram built;
   const auto compile = [&] { built.program = build(session_, source, options); };
   if (captures_) {
-    built.printed = measure::standard_error_of(compile);
+    built.printed = measure::capture_stderr(compile);
   } else {
     compile();
   }

@@ -137,7 +137,7 @@ measure::Frame VolumeFrames::frame(measure::Purpose purpose) {
 }
 
 technique::RayTrace VolumeFrames::trace(int x, int y) {
-  if (constants_.cells) throw core::NotSupported(measure::not_traced);
+  if (constants_.cells) throw core::NotSupported(measure::pixel_history_unsupported);
   return checked([&] {
     const std::size_t counters = counts_.size();
     std::vector<std::uint32_t> words =

@@ -20,7 +20,7 @@ namespace triptych::opencl_backend {
 // Returns the constants for the program that is used for timing, which counts nothing.
 [[nodiscard]] Constants constants_of(const Session& session, const measure::VolumeWork& work);
 
-class VolumeFrames final : public measure::Prepared, public measure::TracesPixel {
+class VolumeFrames final : public measure::Prepared, public measure::PixelTracer {
  public:
   // Compiles the program twice, for timing and for counting its work, and uploads all data.
   VolumeFrames(const Session& session, Programs& programs, VolumeCache& volumes,

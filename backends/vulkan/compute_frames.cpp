@@ -80,7 +80,7 @@ void ComputeFrames::record_counters(std::string_view code) {
 
 technique::RayTrace ComputeFrames::trace(int x, int y) {
   return translated([&] {
-    if (tracing_code_.empty()) throw core::NotSupported(measure::not_traced);
+    if (tracing_code_.empty()) throw core::NotSupported(measure::pixel_history_unsupported);
     resources_.bind_trace(x, y, width_);
     record_counters(tracing_code_);
     static_cast<void>(resources_.parts() > 0 ? submit_parts(measure::Purpose::counters)

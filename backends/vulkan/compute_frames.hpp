@@ -9,7 +9,7 @@
 namespace triptych::vulkan_backend {
 
 // A volume technique that runs as a compute kernel, with one invocation per pixel.
-class ComputeFrames final : public measure::Prepared, public measure::TracesPixel {
+class ComputeFrames final : public measure::Prepared, public measure::PixelTracer {
  public:
   ComputeFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work,
                 const Constants& constants);

@@ -13,7 +13,7 @@
 namespace triptych::vulkan_backend {
 
 // An open physical device.
-class Device final : public measure::Device, public measure::ProbesFeatures {
+class Device final : public measure::Device, public measure::FeatureProber {
  public:
   // Probes the texture filter of every voxel format. Throws core::NotSupported or core::ApiError.
   Device(std::unique_ptr<const Instance> instance, Candidate candidate);

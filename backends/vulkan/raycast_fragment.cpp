@@ -31,7 +31,7 @@ vk::Pipeline make_pipeline(const Gpu& gpu, const Layout& layout, const vk::raii:
                        Specialization(constants));
 }
 
-class FragmentFrames final : public measure::Prepared, public measure::TracesPixel {
+class FragmentFrames final : public measure::Prepared, public measure::PixelTracer {
  public:
   FragmentFrames(const Gpu& gpu, const Instance& instance, const measure::VolumeWork& work);
 
@@ -132,7 +132,7 @@ void FragmentFrames::record_counters(std::string_view code) {
 
 technique::RayTrace FragmentFrames::trace(int x, int y) {
   return translated([&] {
-    if (tracing_code_.empty()) throw core::NotSupported(measure::not_traced);
+    if (tracing_code_.empty()) throw core::NotSupported(measure::pixel_history_unsupported);
     resources_.bind_trace(x, y, static_cast<int>(target_.extent().width));
     record_counters(tracing_code_);
     static_cast<void>(frames_.submit(measure::Purpose::counters));

@@ -81,7 +81,7 @@ void add_inject_option(CLI::App& command, std::vector<std::string>& faults,
                        const std::string& help);
 
 // Adds --limit, the number of seconds after which `what` is treated as hung.
-inline constexpr int default_limit_s = record::standard_limit.count();
+inline constexpr int default_limit_s = record::default_limit.count();
 void add_limit_option(CLI::App& command, int& seconds, const std::string& what);
 
 // Adds --without-data.

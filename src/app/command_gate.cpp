@@ -136,7 +136,7 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
 // option --base selects. The baselines are not used.
 core::ExitCode compare_with_base(const GateArguments& arguments) {
   const Registry registry = make_registry();
-  const measure::Listing listing = measure::name_a_compiler(arguments.devices)
+  const measure::Listing listing = measure::names_compile_only_device(arguments.devices)
                                        ? registry.devices_and_compilers(arguments.devices)
                                        : registry.devices(arguments.devices);
   std::vector<ComparisonRequest> comparisons =
@@ -172,7 +172,7 @@ std::vector<record::Device> found_devices(const GateArguments& arguments, const 
 // plans or requires a device that only compiles.
 void limit_to_stored_code(const GateArguments& arguments, const Registry& registry,
                           std::vector<JudgedPlan>& plans) {
-  if (!arguments.plans.empty() || measure::name_a_compiler(arguments.required)) return;
+  if (!arguments.plans.empty() || measure::names_compile_only_device(arguments.required)) return;
   std::optional<std::vector<record::Device>> found;
   std::erase_if(plans, [&](JudgedPlan& each) {
     if (!each.plan.compiled()) return false;
@@ -250,7 +250,7 @@ core::ExitCode gate(const GateArguments& arguments) {
   };
   if (!arguments.bisect) return judged();
   try {
-    const core::ExitCode code = core::naming({}, judged);
+    const core::ExitCode code = core::with_error_context({}, judged);
     return code == core::ExitCode::cannot_judge ? bisect_skip_code : code;
   } catch (const core::Error& error) {
     print_err("triptych: {}\n", error.what());

@@ -33,15 +33,15 @@ std::string levels_text(const measure::Factor& factor) {
 void print_factor(const measure::Factor& factor) {
   const std::string levels = levels_text(factor);
   print_out("  {}: {}{}{}{}\n      {}\n", factor.name, levels, levels.empty() ? "" : "; ",
-            factor.standard.empty() ? "required" : "default " + factor.standard,
-            factor.of_scene ? "" : "; does not change the image", factor.summary);
+            factor.default_value.empty() ? "required" : "default " + factor.default_value,
+            factor.determines_image ? "" : "; does not change the image", factor.summary);
 }
 
 core::Json json_of(const measure::Factor& factor) {
   core::Json json{{"name", factor.name},
                   {"levels", factor.levels},
-                  {"default", factor.standard},
-                  {"decides_the_picture", factor.of_scene},
+                  {"default", factor.default_value},
+                  {"decides_the_picture", factor.determines_image},
                   {"summary", factor.summary}};
   if (factor.kind == measure::FactorKind::number) {
     json["minimum"] = factor.minimum;

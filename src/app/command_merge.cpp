@@ -33,10 +33,10 @@ void print_left_out(const record::RecordCounts& counts) {
     print_out("  {} records with an injected fault were replaced by records without one\n",
               counts.injected);
   }
-  if (counts.measured_anew > 0) {
+  if (counts.remeasured > 0) {
     print_out(
         "  {} failed or skipped records were replaced by measured records from another store\n",
-        counts.measured_anew);
+        counts.remeasured);
   }
   if (counts.not_chosen > 0) {
     print_out(

@@ -94,13 +94,13 @@ Drawn draw_fastest(const Drawing& drawing, const measure::Plan& plan) {
         "its own rule; name a technique instead of auto");
   }
   const auto [records, answers] =
-      measure::try_for_fastest(plan, drawing.suite, [&](const measure::Plan& tried) {
+      measure::find_fastest(plan, drawing.suite, [&](const measure::Plan& tried) {
         return drawing.store.records(measure_in(drawing, tried, measure::brief_protocol));
       });
-  if (answers.empty() || answers.front().contestants.empty()) {
+  if (answers.empty() || answers.front().candidates.empty()) {
     return {records.at(0).run, records.at(0)};
   }
-  const record::Record& fastest = *answers.front().contestants.front().record;
+  const record::Record& fastest = *answers.front().candidates.front().record;
   print_lines(describe(answers.front(), plan.automatic) + "\n");
   return {fastest.run, fastest};
 }
@@ -112,7 +112,7 @@ Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
   const auto wanted = accuracy::parse_requested_error(*drawing.arguments.error);
   const measure::ErrorRequest request =
       measure::request_error(plan, drawing.suite, wanted, truths, [](const std::string&) {});
-  if (!request.out_of_reach.empty()) throw core::NotSupported(request.out_of_reach.front());
+  if (!request.unreachable.empty()) throw core::NotSupported(request.unreachable.front());
   const std::string run = measure_in(drawing, request.plan);
   const std::vector<record::Record> records = drawing.store.records(run);
   const auto answers = measure::answer_error(records, drawing.suite, wanted, truths);

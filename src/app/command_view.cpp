@@ -111,7 +111,7 @@ core::ExitCode view(const ViewArguments& arguments) {
   for (const auto& each : measure::parse_faults(arguments.frame.faults)) {
     measure::check_fault(each.fault);
   }
-  if (const auto reason = measure::forbids_measuring()) throw core::InputError(*reason);
+  if (const auto reason = measure::reason_not_to_measure()) throw core::InputError(*reason);
   if (!arguments.screenshot.empty()) {
     core::require_writable(fs::absolute(arguments.screenshot).parent_path());
   }

@@ -92,7 +92,7 @@ ExitCode run(int argc, char** argv) {
 
 ExitCode run_and_catch(int argc, char** argv) {
   try {
-    return core::naming({}, [&] { return run(argc, argv); });
+    return core::with_error_context({}, [&] { return run(argc, argv); });
   } catch (const record::NotMeasured& error) {
     app::print_err("triptych: {}\n", report::words::text_of(error.outcome(), error.reason()));
     return error.exit_code();

@@ -88,7 +88,7 @@ std::vector<measure::Plan> load_plans(const MeasureRequest& request, const Regis
   return plans;
 }
 
-measure::RunOptions options_of(const MeasureRequest& request, const record::Beginning& begun) {
+measure::RunOptions options_of(const MeasureRequest& request, const record::RunStart& begun) {
   measure::Protocol protocol = request.brief ? measure::brief_protocol : measure::Protocol{};
   protocol.timed = !request.untimed;
   protocol.statistics = protocol.timed || request.statistics;
@@ -98,7 +98,7 @@ measure::RunOptions options_of(const MeasureRequest& request, const record::Begi
   return {.protocol = protocol,
           .limit = std::chrono::seconds(request.limit_s),
           .resume = request.resume,
-          .again = request.again,
+          .remeasure = request.again,
           .faults = measure::parse_faults(request.faults),
           .jobs = request.jobs,
           .worker_command = measure::worker_command(measure::own_program(), more),
@@ -111,16 +111,16 @@ struct RunContext {
   const MeasureRequest& request;
   const Registry& registry;
   std::vector<std::string> devices;
-  record::Beginning begun;
+  record::RunStart begun;
   record::Store& store;
 };
 
 // Returns the state at the beginning of the run: the host, and the requested, found and unusable
 // devices. GPU families whose compiler is not installed are recorded only if the user named a GPU
 // family or requires the device.
-record::Beginning beginning_of(const measure::Listing& listing, const MeasureRequest& request) {
-  record::Beginning begun{.host = measure::host_name(), .asked = request.devices};
-  const bool named = measure::name_a_compiler(request.devices);
+record::RunStart beginning_of(const measure::Listing& listing, const MeasureRequest& request) {
+  record::RunStart begun{.host = measure::host_name(), .requested = request.devices};
+  const bool named = measure::names_compile_only_device(request.devices);
   const auto is_required = [&](const std::string& id) {
     return core::any_glob_matches(request.required, id);
   };
@@ -152,7 +152,7 @@ std::vector<measure::RunResult> measure_on(const RunContext& context,
     printer.end();
     throw;
   }
-  for (const auto& [fault, only] : measure::faults_that_hit_nothing(runs, context.devices)) {
+  for (const auto& [fault, only] : measure::unmatched_faults(runs, context.devices)) {
     print_err(
         "triptych: --inject {}@{} has no effect, because no configuration or device matches; "
         "`triptych list PLAN` prints the names of configurations, which omit default levels\n",
@@ -173,7 +173,7 @@ MeasureResult measure_within_error(const RunContext& context, const measure::Pla
   measure::Truths truths(context.registry.find_suite(), context.store);
   const measure::ErrorRequest error_request = measure::request_error(
       plan, suite, wanted, truths, [](const std::string& what) { print_err("{}\n", what); });
-  MeasureResult measured{.error_met = error_request.out_of_reach.empty()};
+  MeasureResult measured{.error_met = error_request.unreachable.empty()};
   std::vector<record::Record> records;
   if (!error_request.plan.configurations.empty()) {
     measured.results = measure_on(context, {error_request.plan});
@@ -183,7 +183,7 @@ MeasureResult measure_within_error(const RunContext& context, const measure::Pla
     print_lines(describe(answer, wanted) + "\n");
     measured.error_met = measured.error_met && answer.record != nullptr;
   }
-  for (const std::string& scene : error_request.out_of_reach) print_out("{}\n", scene);
+  for (const std::string& scene : error_request.unreachable) print_out("{}\n", scene);
   return measured;
 }
 
@@ -218,7 +218,7 @@ std::vector<std::string> devices_of(const measure::Listing& listing,
 measure::Listing listing_for(const MeasureRequest& request, const Registry& registry,
                              const std::vector<measure::Plan>& plans) {
   const bool compiled = std::ranges::any_of(plans, &measure::Plan::compiled);
-  if (!compiled && !measure::name_a_compiler(request.devices)) {
+  if (!compiled && !measure::names_compile_only_device(request.devices)) {
     return registry.devices(request.devices);
   }
   measure::Listing listing = registry.devices_and_compilers(request.devices);

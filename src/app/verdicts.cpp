@@ -53,7 +53,8 @@ std::string page_for(const record::Store& store, measure::Truths& truths,
     request.plans.push_back(
         {.run = run == runs.end() ? record::Run{.plan = result.plan} : *run, .verdict = result});
   }
-  return core::naming(store.file().string(), [&] { return report::page(store, request); });
+  return core::with_error_context(store.file().string(),
+                                  [&] { return report::page(store, request); });
 }
 
 }  // namespace
@@ -96,7 +97,7 @@ std::string store_option(const std::string& file) {
 judge::GateResult judge_stored_run(const record::Store& store, const std::string& run,
                                    const std::string& baselines,
                                    const judge::GateRequest& request) {
-  return core::naming(fmt::format("{}: run {}", store.file().string(), run), [&] {
+  return core::with_error_context(fmt::format("{}: run {}", store.file().string(), run), [&] {
     judge::GateRequest complete = request;
     complete.store_option = store_option(store.file().string());
     const bool other_folder = baselines != default_baselines().string();

@@ -122,7 +122,7 @@ class Timer {
 
   void judge_blocks(Entry& entry) {
     ComparedConfiguration& compared = entry.compared;
-    if (compared.clock == SideClock::device && !measure::device_clock_holds(entry.blocks)) {
+    if (compared.clock == SideClock::device && !measure::device_times_plausible(entry.blocks)) {
       compared.clock = SideClock::wall;
       compared.wall_clock_cause = WallClockCause::implausible;
     }
@@ -280,7 +280,8 @@ class Timer {
       while (blocks.size() < options_.confirmation.blocks_per_process_run) {
         blocks.push_back(interleaved_.block());
       }
-      if (entry.compared.clock == SideClock::device && !measure::device_clock_holds(blocks)) return;
+      if (entry.compared.clock == SideClock::device && !measure::device_times_plausible(blocks))
+        return;
       const auto differences = measure::differences(blocks, entry.compared.clock);
       const double level = options_.design.alpha_of_a_look();
       suspect.process_runs.push_back(estimate_shift(differences, level).estimate);

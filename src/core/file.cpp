@@ -38,12 +38,12 @@ class Descriptor {
 };
 
 // A file that the destructor removes, unless finished() was called.
-class Unfinished {
+class UnfinishedFile {
  public:
-  explicit Unfinished(std::filesystem::path file) : file_(std::move(file)) {}
-  Unfinished(const Unfinished&) = delete;
-  Unfinished& operator=(const Unfinished&) = delete;
-  ~Unfinished() {
+  explicit UnfinishedFile(std::filesystem::path file) : file_(std::move(file)) {}
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+  ~UnfinishedFile() {
     std::error_code ignored;
     if (!file_.empty()) std::filesystem::remove(file_, ignored);
   }
@@ -81,25 +81,25 @@ Descriptor open_to_read(const std::filesystem::path& file, struct stat& facts) {
 
 template <typename Bytes>
 Bytes read_at_most(const std::filesystem::path& file, std::size_t most) {
-  const auto refuse_more = [&](std::size_t size) {
+  const auto check_size = [&](std::size_t size) {
     if (size <= most) return;
     throw InputError({.file = file.string()},
                      fmt::format("is too large; the limit is {} bytes", most));
   };
   struct stat facts {};
   const Descriptor in = open_to_read(file, facts);
-  refuse_more(static_cast<std::size_t>(facts.st_size));
+  check_size(static_cast<std::size_t>(facts.st_size));
   // The buffer is one byte larger than the reported file size, so that read() can detect the end of
   // the file without having to enlarge the buffer.
   Bytes bytes(static_cast<std::size_t>(facts.st_size) + 1, typename Bytes::value_type{});
   std::size_t filled = 0;
   for (;;) {
-    const ssize_t got = ::read(in.get(), bytes.data() + filled, bytes.size() - filled);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) fail("cannot read", file, errno);
-    if (got == 0) break;
-    filled += static_cast<std::size_t>(got);
-    refuse_more(filled);
+    const ssize_t count = ::read(in.get(), bytes.data() + filled, bytes.size() - filled);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail("cannot read", file, errno);
+    if (count == 0) break;
+    filled += static_cast<std::size_t>(count);
+    check_size(filled);
     if (filled == bytes.size()) bytes.resize(2 * bytes.size());
   }
   bytes.resize(filled);
@@ -135,18 +135,18 @@ void write_file(std::span<const std::byte> bytes, const std::filesystem::path& f
   }
   // Each writer uses a temporary file with a unique name, so that two writers never write to the
   // same file.
-  std::filesystem::path aside;
+  std::filesystem::path temporary;
   int fd = -1;
   for (int attempt = 0; fd < 0 && (attempt == 0 || errno == EEXIST); ++attempt) {
-    aside = target;
-    aside += fmt::format(".{}-{}.part", ::getpid(), attempt);
-    fd = ::open(aside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    temporary = target;
+    temporary += fmt::format(".{}-{}.part", ::getpid(), attempt);
+    fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   }
   Descriptor out(fd);
   if (out.get() < 0) fail("cannot write", file, errno);
-  Unfinished guard(aside);
+  UnfinishedFile guard(temporary);
   write_and_close(out, bytes, file);
-  if (::rename(aside.c_str(), target.c_str()) != 0) fail("cannot write", file, errno);
+  if (::rename(temporary.c_str(), target.c_str()) != 0) fail("cannot write", file, errno);
   guard.finished();
 }
 

@@ -18,7 +18,7 @@ std::string joined(const std::string& about, const std::string& message) {
 
 }  // namespace
 
-void rethrow_as_ours(const std::string& about) {
+void rethrow_converted(const std::string& about) {
   try {
     throw;
   } catch (const Error&) {

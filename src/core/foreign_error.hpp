@@ -11,15 +11,15 @@ namespace triptych::core {
 // errors and std::bad_alloc to IoError, and all other exceptions to InputError. The message begins
 // with `about`, the name of a file or of a place in a file. If `about` is empty, an exception that
 // would become an InputError is reported as an internal error of Triptych instead.
-[[noreturn]] void rethrow_as_ours(const std::string& about);
+[[noreturn]] void rethrow_converted(const std::string& about);
 
-// Runs `action` and converts its exceptions with rethrow_as_ours().
+// Runs `action` and converts its exceptions with rethrow_converted().
 template <typename Action>
-decltype(auto) naming(const std::string& about, Action&& action) {
+decltype(auto) with_error_context(const std::string& about, Action&& action) {
   try {
     return std::forward<Action>(action)();
   } catch (...) {
-    rethrow_as_ours(about);
+    rethrow_converted(about);
   }
 }
 

@@ -66,20 +66,20 @@ std::string quoted_in(std::string_view what) {
 Json parse(const std::filesystem::path& file, const std::string& text) {
   std::vector<std::set<std::string>> open_objects;
   std::map<std::string, std::size_t> seen;
-  const auto watch = [&](int, Json::parse_event_t event, Json& value) {
+  const auto on_event = [&](int, Json::parse_event_t event, Json& value) {
     if (event == Json::parse_event_t::object_start) open_objects.emplace_back();
     if (event == Json::parse_event_t::object_end) open_objects.pop_back();
     if (event != Json::parse_event_t::key) return true;
     const auto key = value.get<std::string>();
-    const std::size_t times = ++seen[key];
+    const std::size_t occurrence = ++seen[key];
     if (!open_objects.back().insert(key).second) {
-      throw InputError(place_at(file, text, offset_of_key(text, key, times)),
+      throw InputError(place_at(file, text, offset_of_key(text, key, occurrence)),
                        fmt::format("the key '{}' appears twice in one object", key));
     }
     return true;
   };
   try {
-    return Json::parse(text, watch);
+    return Json::parse(text, on_event);
   } catch (const Json::parse_error& error) {
     const std::size_t offset = error.byte == 0 ? 0 : error.byte - 1;
     throw InputError(place_at(file, text, std::min(offset, text.size())),
@@ -127,8 +127,9 @@ JsonFile::JsonFile(std::filesystem::path file, std::string text)
     : file_(std::move(file)), text_(std::move(text)), value_(parse(file_, text_)) {}
 
 std::optional<JsonFile> JsonFile::read(const std::filesystem::path& file) {
-  const bool there = naming(file.string(), [&] { return std::filesystem::exists(file); });
-  if (!there) return std::nullopt;
+  const bool exists =
+      with_error_context(file.string(), [&] { return std::filesystem::exists(file); });
+  if (!exists) return std::nullopt;
   return JsonFile(file, read_text(file, core::most_json_bytes));
 }
 

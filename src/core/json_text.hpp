@@ -27,7 +27,7 @@ namespace triptych::core {
 
 // Returns `text` with invalid UTF-8 bytes replaced, exactly as it would be read back from JSON.
 // Valid UTF-8 is returned unchanged.
-[[nodiscard]] inline std::string mended_utf8(const std::string& text) {
+[[nodiscard]] inline std::string repaired_utf8(const std::string& text) {
   return Json::parse(json_text(text)).get<std::string>();
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool are_one_file(const fs::path& a, const fs::path& b) {
+bool is_same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (!fs::exists(a, error) || !fs::exists(b, error)) {
     return fs::weakly_canonical(fs::absolute(a), error) ==
@@ -46,7 +46,7 @@ void refuse_overwriting(const std::vector<NamedFile>& read, const std::vector<Na
   std::vector<NamedFile> taken = read;
   for (const NamedFile& each : written) {
     for (const auto& [name, file] : taken) {
-      if (each.file.empty() || file.empty() || !are_one_file(each.file, file)) continue;
+      if (each.file.empty() || file.empty() || !is_same_file(each.file, file)) continue;
       throw InputError(fmt::format("{} {} names the same file as {}; choose another file",
                                    each.name, each.file, name));
     }

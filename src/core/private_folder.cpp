@@ -15,15 +15,15 @@ namespace triptych::core {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr mode_t only_this_user = 0700;
+constexpr mode_t owner_only = 0700;
 constexpr mode_t others_write = S_IWGRP | S_IWOTH;
 
-[[noreturn]] void refuse(const fs::path& folder, std::string_view reason) {
+[[noreturn]] void reject(const fs::path& folder, std::string_view reason) {
   throw IoError(fmt::format("{}: {}", folder.string(), reason));
 }
 
-[[noreturn]] void refuse(const fs::path& folder, int error) {
-  refuse(folder, std::generic_category().message(error));
+[[noreturn]] void reject(const fs::path& folder, int error) {
+  reject(folder, std::generic_category().message(error));
 }
 
 class FolderDescriptor {
@@ -47,26 +47,26 @@ class FolderDescriptor {
 
 struct stat status_of(int fd, const fs::path& folder) {
   struct stat status {};
-  if (::fstat(fd, &status) != 0) refuse(folder, errno);
+  if (::fstat(fd, &status) != 0) reject(folder, errno);
   return status;
 }
 
-void make_missing(const fs::path& folder) {
-  fs::path so_far;
+void create_folders(const fs::path& folder) {
+  fs::path current;
   for (const fs::path& part : folder) {
-    so_far /= part;
-    if (::mkdir(so_far.c_str(), only_this_user) != 0 && errno != EEXIST) refuse(so_far, errno);
+    current /= part;
+    if (::mkdir(current.c_str(), owner_only) != 0 && errno != EEXIST) reject(current, errno);
   }
 }
 
 int open_root(const fs::path& root) {
   std::error_code ignored;
-  if (!fs::is_directory(root, ignored)) make_missing(root);
+  if (!fs::is_directory(root, ignored)) create_folders(root);
   FolderDescriptor fd(::open(root.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (fd.get() < 0) refuse(root, errno);
+  if (fd.get() < 0) reject(root, errno);
   const struct stat status = status_of(fd.get(), root);
   if ((status.st_mode & others_write) != 0 && (status.st_mode & S_ISVTX) == 0) {
-    refuse(root,
+    reject(root,
            "other users can write to this folder, and because its sticky bit is not set, they can "
            "also rename the files in it");
   }
@@ -74,22 +74,22 @@ int open_root(const fs::path& root) {
 }
 
 int open_within(int parent, const std::string& name, const fs::path& folder) {
-  if (::mkdirat(parent, name.c_str(), only_this_user) != 0 && errno != EEXIST) {
-    refuse(folder, errno);
+  if (::mkdirat(parent, name.c_str(), owner_only) != 0 && errno != EEXIST) {
+    reject(folder, errno);
   }
   FolderDescriptor fd(
       ::openat(parent, name.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
   if (fd.get() < 0) {
-    if (errno == ELOOP || errno == ENOTDIR) refuse(folder, "is a symbolic link or not a folder");
-    refuse(folder, errno);
+    if (errno == ELOOP || errno == ENOTDIR) reject(folder, "is a symbolic link or not a folder");
+    reject(folder, errno);
   }
   const struct stat status = status_of(fd.get(), folder);
-  if (status.st_uid != ::geteuid()) refuse(folder, "belongs to another user");
+  if (status.st_uid != ::geteuid()) reject(folder, "belongs to another user");
   if ((status.st_mode & others_write) != 0) {
-    refuse(folder, "is writable by other users; remove this folder");
+    reject(folder, "is writable by other users; remove this folder");
   }
-  if ((status.st_mode & 0777) != only_this_user && ::fchmod(fd.get(), only_this_user) != 0) {
-    refuse(folder, errno);
+  if ((status.st_mode & 0777) != owner_only && ::fchmod(fd.get(), owner_only) != 0) {
+    reject(folder, errno);
   }
   return fd.release();
 }

@@ -10,7 +10,7 @@
 namespace triptych::core {
 namespace {
 
-bool means_nothing(char c) {
+bool is_safe_in_shell(char c) {
   const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
   return letter || std::string_view("_@%+=:,./-").find(c) != std::string_view::npos;
 }
@@ -18,7 +18,7 @@ bool means_nothing(char c) {
 // A word that begins with '=' needs quotes, because zsh replaces such a word with the path of a
 // program.
 bool needs_no_quotes(std::string_view word) {
-  return !word.empty() && word.front() != '=' && std::ranges::all_of(word, means_nothing);
+  return !word.empty() && word.front() != '=' && std::ranges::all_of(word, is_safe_in_shell);
 }
 
 std::string within_quotes(std::string_view word) {
@@ -41,7 +41,7 @@ std::string within_printf(std::string_view word) {
     const std::size_t length = utf8_length(rest);
     const std::string_view character = rest.substr(0, std::max<std::size_t>(length, 1));
     rest.remove_prefix(character.size());
-    const bool plain = length > 1 || means_nothing(character.front()) || character == " ";
+    const bool plain = length > 1 || is_safe_in_shell(character.front()) || character == " ";
     if (length > 0 && plain && character != "%" && !is_hidden(character)) {
       text += character;
     } else {
@@ -55,10 +55,11 @@ std::string within_printf(std::string_view word) {
 
 std::string shell_quoted(std::string_view word) {
   if (is_line(word)) return needs_no_quotes(word) ? std::string(word) : within_quotes(word);
-  const std::size_t kept = word.find_last_not_of('\n') + 1;
-  const std::string_view ends = word.substr(kept);
-  return (kept > 0 ? within_printf(word.substr(0, kept)) : std::string()) +
-         (ends.empty() ? std::string() : within_quotes(ends));
+  const std::size_t length_without_breaks = word.find_last_not_of('\n') + 1;
+  const std::string_view line_breaks = word.substr(length_without_breaks);
+  return (length_without_breaks > 0 ? within_printf(word.substr(0, length_without_breaks))
+                                    : std::string()) +
+         (line_breaks.empty() ? std::string() : within_quotes(line_breaks));
 }
 
 bool is_shell_name(std::string_view name) {

@@ -37,7 +37,7 @@ std::array<std::uint32_t, 64> schedule_of(std::string_view block) {
   return words;
 }
 
-void take_in(State& state, std::string_view block) {
+void process_block(State& state, std::string_view block) {
   const auto words = schedule_of(block);
   auto [a, b, c, d, e, f, g, h] = state;
   for (std::size_t i = 0; i < words.size(); ++i) {
@@ -65,7 +65,7 @@ std::array<std::uint8_t, 32> sha256(std::string_view bytes) {
   State state{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
               0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   for (std::size_t at = 0; at < text.size(); at += block_bytes) {
-    take_in(state, std::string_view(text).substr(at, block_bytes));
+    process_block(state, std::string_view(text).substr(at, block_bytes));
   }
   std::array<std::uint8_t, 32> hash{};
   for (std::size_t i = 0; i < hash.size(); ++i) {

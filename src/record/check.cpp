@@ -56,7 +56,7 @@ std::string_view name_of(Check check) {
 }
 
 Check check(std::string_view name) {
-  return named_in(check_names, "check", name);
+  return value_named(check_names, "check", name);
 }
 
 Checks every_check() {

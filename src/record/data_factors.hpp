@@ -11,7 +11,7 @@ namespace triptych::record {
 inline constexpr std::array<std::string_view, 5> data_factors{"data", "voxel", "colour", "window",
                                                               "mapping"};
 
-[[nodiscard]] inline bool decides_data(std::string_view factor) {
+[[nodiscard]] inline bool determines_data(std::string_view factor) {
   return std::ranges::find(data_factors, factor) != data_factors.end();
 }
 

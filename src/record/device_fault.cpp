@@ -24,7 +24,7 @@ std::string_view name_of(DeviceFaultKind kind) {
 }
 
 DeviceFaultKind device_fault_kind(std::string_view name) {
-  return named_in(kind_names, "kind of device fault", name);
+  return value_named(kind_names, "kind of device fault", name);
 }
 
 }  // namespace triptych::record

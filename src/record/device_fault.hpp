@@ -25,9 +25,9 @@ enum class DeviceFaultKind : std::uint8_t {
 
 struct DeviceFault {
   DeviceFaultKind kind = DeviceFaultKind::clock_reads_zero;
-  std::string subject = {};     // what is affected, such as a kind of work or a statistic
-  std::string detail = {};      // the message of the driver, the library or the exception
-  std::string last_words = {};  // the worker's last output
+  std::string subject = {};      // what is affected, such as a kind of work or a statistic
+  std::string detail = {};       // the message of the driver, the library or the exception
+  std::string last_output = {};  // the worker's last output
   bool operator==(const DeviceFault&) const = default;
 };
 

@@ -25,15 +25,15 @@ struct SameImage {
   // may be larger.
   std::array<int, 2> at{0, 0};
   // If false, the images need only be equal within the sum of their bounds.
-  bool to_the_bit = true;
+  bool bit_identical = true;
   // If false, the ids of the particles that the pixels show are not compared, because the two
   // images number the particles differently.
-  bool same_ids = true;
+  bool compare_ids = true;
   float depth_scale = 1;  // depth in the other image divided by depth in this image; a power of two
 };
 
 // Every pixel must have exactly this colour.
-struct OneColour {
+struct UniformColour {
   std::array<float, 4> rgba{};
 };
 
@@ -53,7 +53,7 @@ struct MayBeRefused {};
 
 struct Expectation {
   std::string what;  // states the expectation and the reason for it on one line
-  std::variant<SameImage, OneColour, CountAtMost, MayBeRefused> rule;
+  std::variant<SameImage, UniformColour, CountAtMost, MayBeRefused> rule;
 };
 
 }  // namespace triptych::record

@@ -27,8 +27,8 @@ template <typename Enum, std::size_t N>
 // Returns the enumerator with this name. If there is none, throws an InputError that lists the
 // valid names. In the message, `what` describes the enumeration, such as "outcome".
 template <typename Enum, std::size_t N>
-[[nodiscard]] Enum named_in(const Names<Enum, N>& names, std::string_view what,
-                            std::string_view name) {
+[[nodiscard]] Enum value_named(const Names<Enum, N>& names, std::string_view what,
+                               std::string_view name) {
   std::string known;
   for (const auto& [each, text] : names) {
     if (text == name) return each;

@@ -54,19 +54,19 @@ std::string_view name_of(Outcome outcome) {
   return name_in(outcome_names, outcome);
 }
 Outcome outcome(std::string_view name) {
-  return named_in(outcome_names, "outcome", name);
+  return value_named(outcome_names, "outcome", name);
 }
 std::string_view name_of(Cause cause) {
   return name_in(cause_names, cause);
 }
 Cause cause(std::string_view name) {
-  return named_in(cause_names, "cause", name);
+  return value_named(cause_names, "cause", name);
 }
 std::string_view name_of(Stage stage) {
   return name_in(stage_names, stage);
 }
 Stage stage(std::string_view name) {
-  return named_in(stage_names, "stage", name);
+  return value_named(stage_names, "stage", name);
 }
 
 std::optional<double> Reason::number(const std::string& name) const {

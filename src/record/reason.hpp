@@ -1,6 +1,6 @@
 #pragma once
 // The reason why a configuration was not measured, as data. report/words/ converts it to sentences.
-// `detail` and `last_words` contain messages from drivers and libraries, so code must not compare
+// `detail` and `last_output` contain messages from drivers and libraries, so code must not compare
 // them.
 
 #include <chrono>
@@ -74,7 +74,7 @@ struct Reason {
   bool not_tried = false;
   std::string shared_levels = {};  // "factor=value,…"
   std::string detail = {};         // the message of a driver, a library or an exception
-  std::string last_words = {};     // the worker's last output
+  std::string last_output = {};    // the worker's last output
   bool operator==(const Reason&) const = default;
 
   [[nodiscard]] std::optional<double> number(const std::string& name) const;
@@ -104,7 +104,7 @@ class NotMeasured : public core::Error {
 };
 
 // The time limit for a configuration, unless the option --limit sets another limit.
-inline constexpr std::chrono::seconds standard_limit{60};
+inline constexpr std::chrono::seconds default_limit{60};
 
 void to_json(nlohmann::json& json, const Reason& reason);
 void from_json(const nlohmann::json& json, Reason& reason);

@@ -105,9 +105,9 @@ std::string Device::key_hash() const {
 }
 
 std::string Device::statistics_key() const {
-  const std::string exact = one_line(id) + "; " + one_line(driver_version);
+  const std::string identity = one_line(id) + "; " + one_line(driver_version);
   return fmt::format("{}-{}-{}", slug(id, 48), slug(driver_version, 48),
-                     core::content_hash(exact).substr(0, 8));
+                     core::content_hash(identity).substr(0, 8));
 }
 
 std::optional<std::uint64_t> Record::instructions() const {

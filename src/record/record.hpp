@@ -12,11 +12,11 @@
 #include <string_view>
 #include <vector>
 
-#include "record/beginning.hpp"
 #include "record/check.hpp"
 #include "record/code.hpp"
 #include "record/device_fault.hpp"
 #include "record/reason.hpp"
+#include "record/run_start.hpp"
 #include "record/statistic_worth.hpp"
 
 namespace triptych::record {
@@ -184,7 +184,7 @@ struct Run {
   std::uint64_t configurations = 0;  // number of configurations to be measured on each device
   // One entry for each command that contributed measurements to this run. Empty in a store that was
   // not written by a command.
-  std::vector<Beginning> begun = {};
+  std::vector<RunStart> begun = {};
   std::string planned_hash = {};  // hash of the keys that Store::planned() returns
 };
 

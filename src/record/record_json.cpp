@@ -23,7 +23,7 @@ Json encode(double value) {
 }
 
 Json encode(const std::string& text) {
-  return core::mended_utf8(text);
+  return core::repaired_utf8(text);
 }
 
 template <typename T>
@@ -34,7 +34,7 @@ requires std::is_integral_v<T> Json encode(T value) {
 Json encode(const Reason& reason);
 Json encode(const StatisticWorth& worth);
 Json encode(const DeviceFault& fault);
-Json encode(const Beginning& beginning);
+Json encode(const RunStart& start);
 Json encode(const Executable& executable) {
   return executable;
 }
@@ -104,7 +104,7 @@ void decode(const Json& json, T& value) {
 void decode(const Json& json, Reason& reason);
 void decode(const Json& json, StatisticWorth& worth);
 void decode(const Json& json, DeviceFault& fault);
-void decode(const Json& json, Beginning& beginning);
+void decode(const Json& json, RunStart& start);
 
 template <typename T>
 void decode(const Json& json, std::vector<T>& values) {
@@ -175,7 +175,7 @@ void visit_fields(auto& reason, Visit&& visit) requires
   visit("not_tried", reason.not_tried);
   visit("shared_levels", reason.shared_levels);
   visit("detail", reason.detail);
-  visit("last_words", reason.last_words);
+  visit("last_words", reason.last_output);
 }
 
 template <typename Visit>
@@ -183,7 +183,7 @@ void visit_fields(auto& fault, Visit&& visit) requires
     std::is_same_v<std::remove_cvref_t<decltype(fault)>, DeviceFault> {
   visit("subject", fault.subject);
   visit("detail", fault.detail);
-  visit("last_words", fault.last_words);
+  visit("last_words", fault.last_output);
 }
 
 template <typename Visit>
@@ -272,11 +272,11 @@ Json encode(const Reason& reason) {
 Json encode(const StatisticWorth& worth) {
   return worth;
 }
-Json encode(const Beginning& beginning) {
-  return beginning;
+Json encode(const RunStart& start) {
+  return start;
 }
-void decode(const Json& json, Beginning& beginning) {
-  from_json(json, beginning);
+void decode(const Json& json, RunStart& start) {
+  from_json(json, start);
 }
 Json encode(const DeviceFault& fault) {
   return fault;

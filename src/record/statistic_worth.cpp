@@ -24,7 +24,7 @@ std::string_view name_of(Worth worth) {
 }
 
 Worth worth(std::string_view name) {
-  return named_in(worth_names, "statistic worth", name);
+  return value_named(worth_names, "statistic worth", name);
 }
 
 }  // namespace triptych::record

@@ -20,14 +20,14 @@ namespace {
 
 // While an object of this class exists, each commit is flushed to the disk, so that this commit and
 // all earlier commits survive a power failure.
-class WaitsForDisk {
+class FlushedCommits {
  public:
-  explicit WaitsForDisk(SQLite::Database& database) : database_(database) {
+  explicit FlushedCommits(SQLite::Database& database) : database_(database) {
     database_.exec("PRAGMA synchronous = FULL");
   }
-  ~WaitsForDisk() { static_cast<void>(database_.tryExec("PRAGMA synchronous = NORMAL")); }
-  WaitsForDisk(const WaitsForDisk&) = delete;
-  WaitsForDisk& operator=(const WaitsForDisk&) = delete;
+  ~FlushedCommits() { static_cast<void>(database_.tryExec("PRAGMA synchronous = NORMAL")); }
+  FlushedCommits(const FlushedCommits&) = delete;
+  FlushedCommits& operator=(const FlushedCommits&) = delete;
 
  private:
   SQLite::Database& database_;
@@ -98,15 +98,15 @@ Run Store::latest_run_or_add(const Run& run) {
   return found;
 }
 
-void Store::begin(const std::string& run, const Beginning& beginning,
+void Store::begin(const std::string& run, const RunStart& start,
                   std::span<const std::string> configurations) {
   on_store(state_->file, [&] {
-    const WaitsForDisk waits(state_->database);
+    const FlushedCommits flushed(state_->database);
     state_->write([&] {
       state_->require_run(run);
       std::vector<Run> all = read_runs(state_->database);
       Run& known = *std::ranges::find(all, run, &Run::id);
-      known.begun.push_back(beginning);
+      known.begun.push_back(start);
       known.begun = joined(std::move(known.begun));
       insert_planned(state_->database, run, configurations);
       const std::vector<std::string> planned = read_planned(state_->database, run);
@@ -151,8 +151,8 @@ void Store::add_record(const Record& r) {
 int Store::begin_record(const std::string& run, const std::string& configuration,
                         const std::string& device) {
   return on_store(state_->file, [&] {
-    const WaitsForDisk waits(state_->database);
-    int times = 0;
+    const FlushedCommits flushed(state_->database);
+    int attempts = 0;
     state_->write([&] {
       state_->require_run(run);
       SQLite::Statement row =
@@ -161,9 +161,9 @@ int Store::begin_record(const std::string& run, const std::string& configuration
                    "DO UPDATE SET times = times + 1 RETURNING times",
                    run, configuration, device);
       row.executeStep();
-      times = row.getColumn(0).getInt();
+      attempts = row.getColumn(0).getInt();
     });
-    return times;
+    return attempts;
   });
 }
 

@@ -75,7 +75,7 @@ class Store {
   // Records that a command is about to measure these configurations for the run, which must exist.
   // The entry is flushed to the disk immediately. If the run is interrupted, a reader can therefore
   // determine which records are missing.
-  void begin(const std::string& run, const Beginning& beginning,
+  void begin(const std::string& run, const RunStart& start,
              std::span<const std::string> configurations);
   void add_device(const std::string& run, const Device& device,
                   const std::vector<ClockTrust>& clocks);

@@ -53,7 +53,7 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
   try {
     SQLite::Database database(file_name(file), SQLite::OPEN_READONLY | one_thread,
                               milliseconds_of(busy_limit));
-    require_our_schema(database, file);
+    require_expected_schema(database, file);
     return database;
   } catch (const SQLite::Exception& error) {
     const bool no_room_for_log =
@@ -73,7 +73,7 @@ SQLite::Database open_to_read(const std::filesystem::path& file,
   SQLite::Database database(immutable_uri(file),
                             SQLite::OPEN_READONLY | SQLite::OPEN_URI | one_thread,
                             milliseconds_of(busy_limit));
-  require_our_schema(database, file);
+  require_expected_schema(database, file);
   return database;
 }
 
@@ -105,7 +105,7 @@ SQLite::Database open_to_append(const std::filesystem::path& file,
         fmt::format("{}: the store is read-only, so nothing can be added to it", file.string()));
   }
   if (is_blank(database)) create_schema(database);
-  require_our_schema(database, file);
+  require_expected_schema(database, file);
   write_ahead(database, busy_limit);
   // In WAL mode, synchronous = NORMAL keeps all data when a process dies. Only a power failure can
   // lose the latest transactions, and even then the file stays intact. Data that must survive a

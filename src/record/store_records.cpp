@@ -50,17 +50,18 @@ std::int64_t insert_row(const SQLite::Database& database, const Record& r) {
   const auto derived = std::ranges::count(derived_columns, ',') + 1;
   std::string places = "?";
   for (auto i = columns + derived; i > 1; --i) places += ", ?";
-  execute(
-      database,
-      fmt::format("INSERT INTO record ({}, {}) VALUES ({})", record_columns, derived_columns,
-                  places),
-      r.run, r.suite, r.plan, r.configuration, r.scene, r.technique, r.device, name_of(r.outcome),
-      name_of(r.reason.cause), name_of(r.reason.stage), numbers_text(r.reason), r.reason.subject,
-      r.reason.code, r.reason.not_tried, r.reason.shared_levels, r.reason.detail,
-      r.reason.last_words, r.injected, r.device_clock_trusted, r.warm_up_frames, r.frames_per_100ms,
-      r.loop_wall_ns, r.loop_frames, r.prepare_ns, r.overhead_ns, r.peak_memory_bytes, r.image,
-      r.data_hash, r.kernel_hash, r.counted_by, r.benchmark_json, seal_of(r),  //
-      r.clock(), r.time_ns().size(), median(r.time_ns()), median(r.wall_ns), median(r.device_ns));
+  execute(database,
+          fmt::format("INSERT INTO record ({}, {}) VALUES ({})", record_columns, derived_columns,
+                      places),
+          r.run, r.suite, r.plan, r.configuration, r.scene, r.technique, r.device,
+          name_of(r.outcome), name_of(r.reason.cause), name_of(r.reason.stage),
+          numbers_text(r.reason), r.reason.subject, r.reason.code, r.reason.not_tried,
+          r.reason.shared_levels, r.reason.detail, r.reason.last_output, r.injected,
+          r.device_clock_trusted, r.warm_up_frames, r.frames_per_100ms, r.loop_wall_ns,
+          r.loop_frames, r.prepare_ns, r.overhead_ns, r.peak_memory_bytes, r.image, r.data_hash,
+          r.kernel_hash, r.counted_by, r.benchmark_json, seal_of(r),  //
+          r.clock(), r.time_ns().size(), median(r.time_ns()), median(r.wall_ns),
+          median(r.device_ns));
   return database.getLastInsertRowid();
 }
 
@@ -70,7 +71,7 @@ struct Row {
   std::string seal;
 };
 
-void read_row(SQLite::Statement& row, Row& of, Record& r) {
+void read_row(SQLite::Statement& row, Row& extra, Record& r) {
   std::uint64_t number = 0;
   std::string outcome_name;
   std::string cause_name;
@@ -80,11 +81,11 @@ void read_row(SQLite::Statement& row, Row& of, Record& r) {
   reader >> number >> r.run >> r.suite >> r.plan >> r.configuration >> r.scene >> r.technique >>
       r.device >> outcome_name >> cause_name >> stage_name >> numbers >> r.reason.subject >>
       r.reason.code >> r.reason.not_tried >> r.reason.shared_levels >> r.reason.detail >>
-      r.reason.last_words >> r.injected >> r.device_clock_trusted >> r.warm_up_frames >>
+      r.reason.last_output >> r.injected >> r.device_clock_trusted >> r.warm_up_frames >>
       r.frames_per_100ms >> r.loop_wall_ns >> r.loop_frames >> r.prepare_ns >> r.overhead_ns >>
       r.peak_memory_bytes >> r.image >> r.data_hash >> r.kernel_hash >> r.counted_by >>
-      r.benchmark_json >> of.seal;
-  of.seq = static_cast<std::int64_t>(number);
+      r.benchmark_json >> extra.seal;
+  extra.seq = static_cast<std::int64_t>(number);
   r.outcome = outcome(outcome_name);
   r.reason.cause = cause(cause_name);
   r.reason.stage = stage(stage_name);
@@ -179,10 +180,10 @@ void require_record_seal(const Row& row, const Record& record) {
 
 // Reads the rows that belong to a record from a table other than `record`, with a statement that is
 // prepared only once.
-class RowsOf {
+class RecordRows {
  public:
-  RowsOf(const SQLite::Database& database, std::string_view table, std::string_view columns,
-         std::string_view order)
+  RecordRows(const SQLite::Database& database, std::string_view table, std::string_view columns,
+             std::string_view order)
       : rows_(database, fmt::format("SELECT {} FROM {} WHERE record = ? ORDER BY {}", columns,
                                     table, order)) {}
   template <typename Read>
@@ -200,9 +201,9 @@ class RowsOf {
 };
 
 // Reads the parts of a record that are stored in tables other than `record`.
-class PartsOf {
+class RecordParts {
  public:
-  explicit PartsOf(const SQLite::Database& database)
+  explicit RecordParts(const SQLite::Database& database)
       : database_(database),
         samples_(database, "sample", "clock, ns", "clock, frame"),
         executables_(database, "executable", "name, assembly", "name"),
@@ -250,8 +251,8 @@ class PartsOf {
   }
 
   const SQLite::Database& database_;
-  RowsOf samples_, executables_, code_, same_as_;
-  std::map<std::string, RowsOf> maps_;
+  RecordRows samples_, executables_, code_, same_as_;
+  std::map<std::string, RecordRows> maps_;
 };
 
 }  // namespace
@@ -274,14 +275,14 @@ void insert_record(const SQLite::Database& database, const Record& r) {
 
 std::vector<Record> read_records(const SQLite::Database& database, std::string_view run) {
   std::vector<Record> records;
-  std::vector<Row> of;
+  std::vector<Row> extras;
   SQLite::Statement rows = prepared(
       database,
       fmt::format("SELECT seq, {} FROM record WHERE run = ? ORDER BY device, seq", record_columns),
       run);
-  while (rows.executeStep()) read_row(rows, of.emplace_back(), records.emplace_back());
+  while (rows.executeStep()) read_row(rows, extras.emplace_back(), records.emplace_back());
   RecordsBySeq by_seq;
-  for (std::size_t i = 0; i < records.size(); ++i) by_seq[of[i].seq] = &records[i];
+  for (std::size_t i = 0; i < records.size(); ++i) by_seq[extras[i].seq] = &records[i];
   read_times(database, run, by_seq);
   read_map(database, "factor", run, by_seq, &Record::factors);
   read_map(database, "counter", run, by_seq, &Record::counters);
@@ -294,22 +295,22 @@ std::vector<Record> read_records(const SQLite::Database& database, std::string_v
   read_code(database, run, by_seq);
   read_rows(database, "same_as", "t.configuration", "t.record", run, by_seq,
             [](Record& record, Reader& row) { row >> record.same_as; });
-  for (std::size_t i = 0; i < records.size(); ++i) require_record_seal(of[i], records[i]);
+  for (std::size_t i = 0; i < records.size(); ++i) require_record_seal(extras[i], records[i]);
   return records;
 }
 
 void visit_records(const SQLite::Database& database, std::string_view run,
                    const std::function<void(const Record&)>& visit) {
-  PartsOf parts(database);
+  RecordParts parts(database);
   SQLite::Statement rows = prepared(
       database,
       fmt::format("SELECT seq, {} FROM record WHERE run = ? ORDER BY seq", record_columns), run);
   while (rows.executeStep()) {
-    Row of;
+    Row extra;
     Record record;
-    read_row(rows, of, record);
-    parts.read(of.seq, record);
-    require_record_seal(of, record);
+    read_row(rows, extra, record);
+    parts.read(extra.seq, record);
+    require_record_seal(extra, record);
     visit(record);
   }
 }

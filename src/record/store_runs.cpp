@@ -35,7 +35,7 @@ Run read_run(SQLite::Statement& row) {
   Reader(row) >> run.id >> run.plan >> run.started_at >> system >> checks >> run.plan_hash >>
       run.configurations >> begun >> run.planned_hash >> seal;
   run.system = map_of(system);
-  run.begun = Json::parse(begun).get<std::vector<Beginning>>();
+  run.begun = Json::parse(begun).get<std::vector<RunStart>>();
   run.checks = checks_of(checks);
   require_seal(seal, seal_of(run), fmt::format("run '{}'", run.id));
   return run;
@@ -93,7 +93,7 @@ std::vector<DeviceFault> read_faults(const SQLite::Database& database, std::uint
   while (rows.executeStep()) {
     std::string kind;
     DeviceFault& fault = faults.emplace_back();
-    Reader(rows) >> kind >> fault.subject >> fault.detail >> fault.last_words;
+    Reader(rows) >> kind >> fault.subject >> fault.detail >> fault.last_output;
     fault.kind = device_fault_kind(kind);
   }
   return faults;
@@ -180,7 +180,7 @@ void insert_device(const SQLite::Database& database, const std::string& run, con
     execute(database,
             "INSERT INTO device_fault (device, kind, subject, detail, last_words) VALUES (?, ?, "
             "?, ?, ?)",
-            device, name_of(fault.kind), fault.subject, fault.detail, fault.last_words);
+            device, name_of(fault.kind), fault.subject, fault.detail, fault.last_output);
   }
 }
 

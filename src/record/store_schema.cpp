@@ -256,20 +256,20 @@ Objects objects_of(const SQLite::Database& database) {
   return objects;
 }
 
-const Objects& our_objects() {
-  static const Objects ours = [] {
+const Objects& expected_objects() {
+  static const Objects objects = [] {
     SQLite::Database memory(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
     memory.exec(schema);
     return objects_of(memory);
   }();
-  return ours;
+  return objects;
 }
 
 // Rejects a store whose objects could falsify data: a trigger could change new rows, and a view or
 // a modified table could return wrong rows. Additional tables are allowed.
-void require_our_objects(const SQLite::Database& database, const std::filesystem::path& file) {
+void require_expected_objects(const SQLite::Database& database, const std::filesystem::path& file) {
   const Objects found = objects_of(database);
-  for (const auto& [object, statement] : our_objects()) {
+  for (const auto& [object, statement] : expected_objects()) {
     const auto known = found.find(object);
     if (known != found.end() && known->second == statement) continue;
     throw core::InputError(
@@ -280,7 +280,7 @@ void require_our_objects(const SQLite::Database& database, const std::filesystem
             known == found.end() ? "missing" : "different from the one that Triptych creates"));
   }
   for (const auto& [object, statement] : found) {
-    if (object.first == "table" || our_objects().contains(object)) continue;
+    if (object.first == "table" || expected_objects().contains(object)) continue;
     throw core::InputError({.file = file.string()},
                            fmt::format("contains the {} {}, which Triptych did not create; it "
                                        "could alter data on reading or inserting, so remove it",
@@ -297,7 +297,7 @@ bool is_blank(const SQLite::Database& database) {
          pragma(database, "user_version") == 0;
 }
 
-void require_our_schema(const SQLite::Database& database, const std::filesystem::path& file) {
+void require_expected_schema(const SQLite::Database& database, const std::filesystem::path& file) {
   if (pragma(database, "application_id") != application_id) {
     throw core::InputError(
         {.file = file.string()},
@@ -305,7 +305,7 @@ void require_our_schema(const SQLite::Database& database, const std::filesystem:
                            : "is an SQLite file, but not a Triptych store");
   }
   const int found = pragma(database, "user_version");
-  if (found == Store::schema_version) return require_our_objects(database, file);
+  if (found == Store::schema_version) return require_expected_objects(database, file);
   throw core::InputError(
       {.file = file.string()},
       fmt::format("the store has schema version {}, but this version of Triptych requires schema "

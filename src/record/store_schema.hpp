@@ -15,6 +15,6 @@ namespace triptych::record {
 void create_schema(SQLite::Database& database);
 
 // Throws InputError if the file is not a store, or has another schema version.
-void require_our_schema(const SQLite::Database& database, const std::filesystem::path& file);
+void require_expected_schema(const SQLite::Database& database, const std::filesystem::path& file);
 
 }  // namespace triptych::record

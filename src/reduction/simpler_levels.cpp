@@ -91,7 +91,8 @@ std::vector<std::string> simpler_levels(const measure::Factor& factor, const std
   if (factor.kind == measure::FactorKind::number) {
     if (level == "0") return levels;
     if (factor.minimum == 0) levels.emplace_back("0");
-    if (level != factor.standard && factor.standard != "0") levels.push_back(factor.standard);
+    if (level != factor.default_value && factor.default_value != "0")
+      levels.push_back(factor.default_value);
     return levels;
   }
   const bool is_data = factor.name == "data";
@@ -100,7 +101,7 @@ std::vector<std::string> simpler_levels(const measure::Factor& factor, const std
     if (const auto sized = parse_sized_level(level))
       return smaller_levels(*sized, is_data ? axes : 2);
   }
-  if (level != factor.standard) levels.push_back(factor.standard);
+  if (level != factor.default_value) levels.push_back(factor.default_value);
   return levels;
 }
 

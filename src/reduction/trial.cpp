@@ -57,7 +57,7 @@ std::chrono::seconds limit_by_first_frame(const measure::Suite& suite, const std
                                           measure::RunOptions options, record::Store& store) {
   constexpr std::chrono::seconds least_limit{20};
   constexpr int limit_factor = 3;
-  options.limit = record::standard_limit;
+  options.limit = record::default_limit;
   measure::InterruptGuard interrupts;
   measure::SingleFrames frames(suite, device, store, options, interrupts);
   const measure::Stopwatch stopwatch;

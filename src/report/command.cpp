@@ -53,7 +53,7 @@ std::string text_of(const Command& command) {
     words.insert(words.end(), {"--set", record::factor_list({{factor, level}})});
   }
   for (const std::string& fault : command.injected) words.insert(words.end(), {"--inject", fault});
-  if (command.limit && *command.limit != record::standard_limit) {
+  if (command.limit && *command.limit != record::default_limit) {
     words.insert(words.end(), {"--limit", fmt::format("{}", command.limit->count())});
   }
   words.insert(words.end(), command.more.begin(), command.more.end());

@@ -54,7 +54,7 @@ std::vector<std::string> values_of(const measure::Suite& suite, const measure::F
 Choices::Choices(const measure::Suite& suite, measure::Configuration first)
     : suite_(suite), first_(std::move(first)), current_(first_) {
   for (const measure::Factor& each : suite.factors()) {
-    default_levels_[each.name] = measure::standard_of(each);
+    default_levels_[each.name] = measure::default_of(each);
   }
   collect_offered_levels();
 }
@@ -93,7 +93,7 @@ void Choices::collect_offered_levels() {
     add_level(offered_levels, default_levels_.at(each.name));
     if (each.name == "data") {
       for (const scene::GeneratorInfo& known : suite_.generators()) {
-        add_level(offered_levels, generated(known.name, each.standard));
+        add_level(offered_levels, generated(known.name, each.default_value));
       }
     }
   }

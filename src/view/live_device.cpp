@@ -162,7 +162,7 @@ record::Record LiveDevice::measure_frame(const FrameRequest& request, std::vecto
     return ended(slot_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
                  slot_.why_closed());
   }
-  auto reply = slot_.ask(to_message(job(request)), options_.limit, [&](const auto& loading) {
+  auto reply = slot_.run_job(to_message(job(request)), options_.limit, [&](const auto& loading) {
     update_state([&](State& state) { state.loading = loading; });
   });
   if (auto* lost = std::get_if<measure::WorkerSlot::Ended>(&reply)) {

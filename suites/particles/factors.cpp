@@ -11,8 +11,8 @@ namespace triptych::particles_suite {
 namespace {
 
 using measure::choice;
-using measure::Decides;
 using measure::Factor;
+using measure::FactorRole;
 using measure::number;
 using measure::text;
 
@@ -29,36 +29,36 @@ const std::vector<Factor>& particle_factors() {
            "a particle file (" + scene::particle_endings() +
                ", plain or compressed; FILE@K selects frame K, counting from 0), "
                "generate:NAME:COUNT, or stress:CASE:VARIANT (a stress scene)"),
-      choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", Decides::the_image,
+      choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", FactorRole::scene,
              "how each particle's colour is stored: as four bytes (rgba8), as four floats "
              "(rgba32), or as an intensity that is looked up in the transfer function"),
       text("transfer_function", "haze",
            "the transfer function, which maps intensities to colours: the preset haze or surfaces, "
            "or a file with 256 RGBA entries"),
-      choice("transfer", {"vertex", "pixel"}, "vertex", Decides::how_it_is_made,
+      choice("transfer", {"vertex", "pixel"}, "vertex", FactorRole::method,
              "the shader stage that looks up colours in the transfer function"),
-      choice("ray", {"vertex", "pixel"}, "pixel", Decides::how_it_is_made,
+      choice("ray", {"vertex", "pixel"}, "pixel", FactorRole::method,
              "the shader stage that computes the rays"),
-      choice("conservative_depth", {"off", "on"}, "off", Decides::how_it_is_made,
+      choice("conservative_depth", {"off", "on"}, "off", FactorRole::method,
              "whether the shader declares conservative depth (depth_less), which is correct "
              "because each surface point lies behind its sprite; hidden fragments can then be "
              "rejected early"),
-      choice("corners", {"4", "5", "6", "7", "8", "16", "32"}, "8", Decides::how_it_is_made,
+      choice("corners", {"4", "5", "6", "7", "8", "16", "32"}, "8", FactorRole::method,
              "the number of corners of each polygon that polygon_tess draws"),
-      choice("culling", {"none", "frustum", "occlusion"}, "frustum", Decides::how_it_is_made,
+      choice("culling", {"none", "frustum", "occlusion"}, "frustum", FactorRole::method,
              "which cells (groups of neighbouring particles) are culled: none, those outside the "
              "view frustum, or also those hidden behind other particles (occlusion)"),
-      choice("structure", {"static", "refit", "rebuild"}, "static", Decides::how_it_is_made,
+      choice("structure", {"static", "refit", "rebuild"}, "static", FactorRole::method,
              "how each frame updates the hierarchy that rays traverse: not at all (static), by "
              "refitting it to the moved spheres, or by rebuilding it"),
-      number("radius_scale", 1e-6, 1e6, "1", Decides::the_image,
+      number("radius_scale", 1e-6, 1e6, "1", FactorRole::scene,
              "the factor by which every radius is multiplied"),
       text(
           "camera", "orbit_y:1/8",
           "PATH:i/n (such as orbit_y:1/8 or path_z:3/36), random:SEED, or "
           "view:AZIMUTH/ELEVATION/DISTANCE (angles in degrees and distance in orbit radii, such as "
           "view:45/20/0.8); own: the stress case's camera"),
-      number("fov", 0.0005, 179, "60", Decides::the_image,
+      number("fov", 0.0005, 179, "60", FactorRole::scene,
              "the vertical field of view in degrees; own: the stress case's field of view",
              {std::string(own_level)}),
       text("viewport", "256",

@@ -156,7 +156,7 @@ std::vector<record::Expectation> stress_expectations(const StressData& data) {
     return {same_as_first("a bit-identical image for any order of the particles in the file", 1)};
   }
   if (name == "count" && data.variant == "0") {
-    return {{"only the background", record::OneColour{{0, 0, 0, 0}}}};
+    return {{"only the background", record::UniformColour{{0, 0, 0, 0}}}};
   }
   if (name == "widest") {
     return {{"an image that a device may reject because it is too wide", record::MayBeRefused{}}};

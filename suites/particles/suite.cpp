@@ -44,7 +44,7 @@ reference::SphereErrorModel model_of(const scene::ParticleScene& scene,
   return error_model(scene, ray, static_cast<int>(bits->second));
 }
 
-class ParticleSuite final : public measure::SuiteWithTruth, public measure::ExpectsSprites {
+class ParticleSuite final : public measure::SuiteWithTruth, public measure::SpriteReference {
  public:
   explicit ParticleSuite(std::vector<std::filesystem::path> folders)
       : folders_(std::move(folders)) {}
@@ -144,19 +144,20 @@ void ParticleSuite::load(const Configuration& configuration) {
   loaded_ = {};  // frees the old set before the new one is loaded
   const std::string& data = configuration.at("data");
   const scene::ColourKind colour = scene::colour_kind(configuration.at("colour"));
-  tell({.what = data, .share = 0});
+  report_loading({.what = data, .share = 0});
   if (const auto stress = stress_data(data)) {
     loaded_.stress = stress_scene(*stress, colour);
     loaded_.particles =
         std::make_shared<const scene::ParticleSet>(std::move(loaded_.stress->particles));
   } else {
     loaded_.particles = std::make_shared<const scene::ParticleSet>(scene::load_particles(
-        data, colour, folders_, [&](double share) { tell({.what = data, .share = share}); }));
+        data, colour, folders_,
+        [&](double share) { report_loading({.what = data, .share = share}); }));
   }
   for (const std::string& note : loaded_.particles->facts.notes) {
-    tell({.what = data, .share = 1, .note = note});
+    report_loading({.what = data, .share = 1, .note = note});
   }
-  tell({.what = data, .share = 1});
+  report_loading({.what = data, .share = 1});
   loaded_.key = wanted;
 }
 

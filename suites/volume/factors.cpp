@@ -14,8 +14,8 @@ namespace triptych::volume_suite {
 namespace {
 
 using measure::choice;
-using measure::Decides;
 using measure::Factor;
+using measure::FactorRole;
 using measure::number;
 using measure::text;
 
@@ -38,12 +38,12 @@ const std::vector<Factor>& volume_factors() {
                "analytic:PROBLEM:SIZE (a scene with an exact solution), or stress:CASE:VARIANT "
                "(a stress scene)"),
       choice(
-          "voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", Decides::how_it_is_made,
+          "voxel", {"auto", "u8", "u16", "f32", "f16"}, "auto", FactorRole::method,
           "how voxels are stored on the device: as 8- or 16-bit integers, floats, or half floats "
           "(f16); auto: the fastest combination of the factors voxel and sampler that is exact on "
           "the device"),
       choice(
-          "sampler", {"auto", "hardware", "manual", "packed"}, "auto", Decides::how_it_is_made,
+          "sampler", {"auto", "hardware", "manual", "packed"}, "auto", FactorRole::method,
           "how voxels are interpolated: by the hardware sampler, by the kernel (manual), or by the "
           "kernel from packed cells of eight voxels; auto: the fastest combination of the "
           "factors voxel and sampler that is exact on the device"),
@@ -52,7 +52,7 @@ const std::vector<Factor>& volume_factors() {
                "the range of values that the transfer function spans: full, or LOW..HIGH in the "
                "data's units or percentiles (p1..p99, 0..p99.5); values outside are clamped")),
       with_silent_default(choice(
-          "mapping", {"linear", "log"}, "linear", Decides::the_image,
+          "mapping", {"linear", "log"}, "linear", FactorRole::scene,
           "how values in the window are mapped to the transfer function: linearly, or by their "
           "logarithm (log), with values below the smallest positive value mapped to 0")),
       with_silent_default(
@@ -64,39 +64,38 @@ const std::vector<Factor>& volume_factors() {
            "the transfer function, which maps values to colours and opacities: the preset haze or "
            "surfaces, or a file with 256 RGBA entries; own: the transfer function of the analytic "
            "problem or stress case (surfaces for all other data)"),
-      number("step", 1.0 / 64, 4096, "1", Decides::the_image,
+      number("step", 1.0 / 64, 4096, "1", FactorRole::scene,
              "the distance between samples in units of the smallest voxel spacing; own: the stress "
              "case's step (1 for all other data)",
              {std::string(own_level)}),
       choice(
           "quadrature", {"midpoint", "preintegrated", "cells", std::string(own_level)}, "midpoint",
-          Decides::the_image,
+          FactorRole::scene,
           "the rule for the ray integral; midpoint: one sample for each step; preintegrated: the "
           "transfer function is integrated between the values at both ends of a step; cells: a "
           "fourth-order rule, for which rays are cut at the planes through voxel centres and at "
           "the kinks of the transfer function, and are divided into ⌈1/step⌉ equal parts between "
           "two such planes; own: the stress case's rule (midpoint for all other data)"),
-      choice("shading", {"none", "gradient", std::string(own_level)}, "none", Decides::the_image,
+      choice("shading", {"none", "gradient", std::string(own_level)}, "none", FactorRole::scene,
              "none, or gradient: shading by a headlight, with gradients computed by central "
              "differences; own: the stress case's shading (none for all other data)"),
       choice("skip", {"none", "bricks", "distance"},
-             std::string(technique::name_of(technique::RaycastOptions{}.skip)),
-             Decides::how_it_is_made,
+             std::string(technique::name_of(technique::RaycastOptions{}.skip)), FactorRole::method,
              "how empty space is skipped: not at all, brick by brick, or by leaps over several "
              "bricks (distance)"),
-      number("ert", 0, 0.5, "0.001953125", Decides::how_it_is_made,
+      number("ert", 0, 0.5, "0.001953125", FactorRole::method,
              "early ray termination: the transmittance below which a ray ends, or 0 for never; the "
              "default is half an 8-bit step; own: the stress case's value (the default for all "
              "other data)",
              {std::string(own_level)}),
-      number("adapt", 0, 0.5, "0", Decides::how_it_is_made,
+      number("adapt", 0, 0.5, "0", FactorRole::method,
              "the error allowed for merging the samples of a nearly homogeneous brick into one "
              "sample; a value above 0 requires skip=bricks"),
-      choice("precision", {"fp32", "fp64"}, "fp32", Decides::how_it_is_made,
+      choice("precision", {"fp32", "fp64"}, "fp32", FactorRole::method,
              "the precision of rays, interpolation and compositing; fp64 requires sampler=manual "
              "or sampler=packed, and sampler=auto then selects one of them"),
       number(
-          "budget", 0x1.0p-10, 1 << 20, std::string(no_budget), Decides::how_it_is_made,
+          "budget", 0x1.0p-10, 1 << 20, std::string(no_budget), FactorRole::method,
           "the limit on device memory for voxels, in MiB; a larger volume is drawn in parts, front "
           "to back, and every frame uploads the parts again; none: only the device's limits apply",
           {std::string(no_budget)}),

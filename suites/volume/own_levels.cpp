@@ -11,7 +11,7 @@ namespace triptych::volume_suite {
 const std::string& OwnLevels::value(const std::string& factor) const {
   const std::string& given = configuration_.at(factor);
   return given == own_level
-             ? std::ranges::find(volume_factors(), factor, &measure::Factor::name)->standard
+             ? std::ranges::find(volume_factors(), factor, &measure::Factor::name)->default_value
              : given;
 }
 

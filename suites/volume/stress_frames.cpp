@@ -33,7 +33,7 @@ StressScene stress_shape(std::string_view variant) {
         {"the matching part of the image with 17x13 pixels, within the sum of both error bounds",
          record::SameImage{.changed = {{"data", "stress:shape:17x13"}},
                            .at = {(columns - scene.width) / 2, (rows - scene.height) / 2},
-                           .to_the_bit = false}}};
+                           .bit_identical = false}}};
   }
   return scene;
 }

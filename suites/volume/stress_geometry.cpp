@@ -48,7 +48,7 @@ StressScene stress_boundary(std::string_view variant) {
   // The eye is on a face and looks outward, in such a direction that no ray enters the volume.
   StressScene scene = seen_from(camera_looking_at({edge, 9.25, 13.5}, {40, 12, 12}, 60));
   scene.expectations = {{"exactly the background, because no ray enters the box",
-                         record::OneColour{scene.background}}};
+                         record::UniformColour{scene.background}}};
   return scene;
 }
 
@@ -110,7 +110,7 @@ StressScene stress_octant(std::string_view variant) {
              : "the image of the scene stress:octant:ppp, within the sum of both error bounds",
          record::SameImage{.changed = {{"data", "stress:octant:ppp"}},
                            .mirrored_x = sign.x * sign.y * sign.z < 0,
-                           .to_the_bit = false}}};
+                           .bit_identical = false}}};
   }
   return scene;
 }
@@ -134,7 +134,7 @@ StressScene stress_unseen(std::string_view variant) {
   const record::Expectation none{"no sample, because no ray hits the box",
                                  record::CountAtMost{.counter = "samples", .factor = 0}};
   const record::Expectation background{"exactly the background",
-                                       record::OneColour{scene.background}};
+                                       record::UniformColour{scene.background}};
   scene.expectations = {none, background};
   return scene;
 }

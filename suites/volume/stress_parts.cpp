@@ -104,7 +104,7 @@ record::Expectation same_bits_as(const std::string& data, std::string what) {
 }
 
 record::Expectation same_within_bounds_as(const std::string& data, std::string what) {
-  return {std::move(what), record::SameImage{.changed = {{"data", data}}, .to_the_bit = false}};
+  return {std::move(what), record::SameImage{.changed = {{"data", data}}, .bit_identical = false}};
 }
 
 }  // namespace triptych::volume_suite

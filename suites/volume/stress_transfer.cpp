@@ -61,7 +61,7 @@ StressScene stress_solid(std::string_view /*variant*/) {
   scene.expectations = {
       {"exactly the transfer function's colour, because the opacity of a sample "
        "of length s is 1 − (1 − 1)^s, which is exactly 1",
-       record::OneColour{orange}}};
+       record::UniformColour{orange}}};
   return scene;
 }
 
@@ -163,7 +163,7 @@ StressScene stress_transparent(std::string_view /*variant*/) {
   StressScene scene = asymmetric_scene();
   scene.function = uniform({1, 1, 1, 0});
   scene.expectations = {{"exactly the background, because nothing is added to 0",
-                         record::OneColour{scene.background}}};
+                         record::UniformColour{scene.background}}};
   scene.when_skipping = {
       {"at most one sample per ray, because the last sample may be beyond the last brick, where no "
        "brick marks it as transparent",

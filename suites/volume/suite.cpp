@@ -35,7 +35,7 @@ namespace {
 
 using measure::Configuration;
 
-class VolumeSuite final : public measure::SuiteWithTruth, public measure::ExpectsRay {
+class VolumeSuite final : public measure::SuiteWithTruth, public measure::RayReference {
  public:
   explicit VolumeSuite(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
 
@@ -84,7 +84,7 @@ class VolumeSuite final : public measure::SuiteWithTruth, public measure::Expect
 
   const LoadedData& load(const Configuration& configuration, const ChooseFormat& choose) {
     return data_.load(configuration, choose, [&](const std::string& note) {
-      tell({.what = configuration.at("data"), .share = 1, .note = note});
+      report_loading({.what = configuration.at("data"), .share = 1, .note = note});
     });
   }
   const LoadedData& load_native(const Configuration& configuration) {

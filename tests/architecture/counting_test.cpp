@@ -20,39 +20,41 @@ std::vector<std::string> lines_of(const std::filesystem::path& file) {
 }
 
 // Returns whether a line contains a statement that begins or leaves a loop, or leaves a function.
-bool steers(const std::string& line) {
+bool changes_control_flow(const std::string& line) {
   static const std::regex word(R"(\b(return|break|continue|discard|for|while|do|goto)\b)");
   return std::regex_search(line, word);
 }
 
 // Returns whether a line uses TRI_COUNT in one of the allowed ways.
-bool is_a_count(const std::string& line) {
+bool is_allowed_use(const std::string& line) {
   static const std::regex block(R"(^\s*#if TRI_COUNT\s*$)");
   static const std::regex statement(
       R"(^\s*if \(TRI_COUNT == 1( && [^|]*)?\) (count_\w+(\+\+| = 1u| \+= [^;]*);|\{.*)\s*$)");
-  return std::regex_match(line, block) || (std::regex_match(line, statement) && !steers(line));
+  return std::regex_match(line, block) ||
+         (std::regex_match(line, statement) && !changes_control_flow(line));
 }
 
 TEST(Counting, TriCountAffectsOnlyCounting) {
   static const std::regex name(R"(\bTRI_COUNT\b)");
-  std::size_t seen = 0;
+  std::size_t uses = 0;
   for (const std::string folder : {"backends", "src/technique"}) {
     for (const auto& file : files_below(folder, device_code)) {
       bool counts = false;
       for (const std::string& line : lines_of(file)) {
         if (std::regex_search(line, name)) {
-          EXPECT_TRUE(is_a_count(line)) << file << ": " << line;
+          EXPECT_TRUE(is_allowed_use(line)) << file << ": " << line;
           counts = line.starts_with("#if");
-          ++seen;
+          ++uses;
         } else if (line.starts_with("#endif")) {
           counts = false;
         } else if (counts) {
-          EXPECT_FALSE(steers(line) || line.starts_with("#el")) << file << ": " << line;
+          EXPECT_FALSE(changes_control_flow(line) || line.starts_with("#el"))
+              << file << ": " << line;
         }
       }
     }
   }
-  EXPECT_GT(seen, 20U);
+  EXPECT_GT(uses, 20U);
 }
 
 }  // namespace

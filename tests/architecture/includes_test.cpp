@@ -38,7 +38,7 @@ std::optional<std::string> room_of_include(const std::string& include,
   return std::nullopt;
 }
 
-void expect_downwards(const std::string& folder, const std::string& room) {
+void expect_includes_from_lower_floors(const std::string& folder, const std::string& room) {
   const auto known = floors();
   ASSERT_TRUE(known.contains(room)) << room;
   for (const auto& file : files_below(folder, code_endings)) {
@@ -59,7 +59,7 @@ TEST(Includes, FloorsAreParsed) {
 TEST(Includes, RoomsIncludeOnlyLowerFloors) {
   for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src")) {
     const std::string room = entry.path().filename().string();
-    expect_downwards("src/" + room, room);
+    expect_includes_from_lower_floors("src/" + room, room);
   }
 }
 
@@ -85,26 +85,26 @@ std::map<std::string, std::set<std::string>> folders_of(const std::string& room)
 
 // Repeatedly removes folders that need none of the remaining folders. The folders that cannot be
 // removed form a cycle.
-std::string circle_in(std::map<std::string, std::set<std::string>> needed) {
+std::string cycle_in(std::map<std::string, std::set<std::string>> needed) {
   while (true) {
-    const auto free = std::ranges::find_if(needed, [&](const auto& folder) {
+    const auto independent = std::ranges::find_if(needed, [&](const auto& folder) {
       return std::ranges::none_of(folder.second, [&](const auto& n) { return needed.contains(n); });
     });
-    if (free == needed.end()) break;
-    needed.erase(free);
+    if (independent == needed.end()) break;
+    needed.erase(independent);
   }
-  std::string left;
-  for (const auto& [folder, others] : needed) left += folder + " ";
-  return left;
+  std::string cycle;
+  for (const auto& [folder, others] : needed) cycle += folder + " ";
+  return cycle;
 }
 
 TEST(Includes, FoldersOfARoomFormNoCycle) {
-  EXPECT_EQ(circle_in({{"a", {"b"}}, {"b", {"a", "c"}}, {"c", {}}}), "a b ");
+  EXPECT_EQ(cycle_in({{"a", {"b"}}, {"b", {"a", "c"}}, {"c", {}}}), "a b ");
   EXPECT_GE(folders_of("judge").size(), 4U);
   EXPECT_TRUE(folders_of("judge").at("gate").contains("baselines"));
   for (const auto& entry : std::filesystem::directory_iterator(source_folder / "src")) {
     const std::string room = entry.path().filename().string();
-    EXPECT_EQ(circle_in(folders_of(room)), "") << "in src/" << room;
+    EXPECT_EQ(cycle_in(folders_of(room)), "") << "in src/" << room;
   }
 }
 
@@ -112,7 +112,7 @@ TEST(Includes, BackendsAndSuitesAreIndependent) {
   for (const std::string kind : {"backend", "suite"}) {
     for (const auto& entry : std::filesystem::directory_iterator(source_folder / (kind + "s"))) {
       if (!entry.is_directory()) continue;
-      expect_downwards(kind + "s/" + entry.path().filename().string(), kind);
+      expect_includes_from_lower_floors(kind + "s/" + entry.path().filename().string(), kind);
     }
   }
 }

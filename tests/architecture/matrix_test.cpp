@@ -51,12 +51,13 @@ TEST(Matrix, EveryCellIsImplementedOrExplained) {
   for (const std::string& api : apis) {
     const auto reasons = unsupported(api);
     for (const technique::Technique& each : technique::catalogue()) {
-      const bool there = implemented(api, each.id);
+      const bool is_implemented = implemented(api, each.id);
       const bool explained = reasons.contains(each.id) && reasons.at(each.id).size() > 10;
-      EXPECT_NE(there, explained) << api << "/" << each.id
-                                  << (there ? " is implemented but listed as unsupported"
-                                            : " is missing without a reason");
-      EXPECT_EQ(there, std::ranges::count(each.apis, api) == 1)
+      EXPECT_NE(is_implemented, explained)
+          << api << "/" << each.id
+          << (is_implemented ? " is implemented but listed as unsupported"
+                             : " is missing without a reason");
+      EXPECT_EQ(is_implemented, std::ranges::count(each.apis, api) == 1)
           << api << "/" << each.id << " differs from its catalogue line";
     }
   }

@@ -10,7 +10,7 @@ namespace {
 // Matches code that searches a message, or compares a message with a string literal. The test does
 // not search src/core, because the code there only quotes messages.
 const std::regex reads_prose(
-    R"(\b(detail|last_words|message|what\(\)|text_of\([^()]*\)|headline\([^()]*\)|advice\([^()]*\)))"
+    R"(\b(detail|last_words|last_output|message|what\(\)|text_of\([^()]*\)|headline\([^()]*\)|advice\([^()]*\)))"
     R"(\s*(\.\s*(find|rfind|starts_with|ends_with|contains|substr|compare)\b|[=!]=\s*"[^"]))");
 
 TEST(Prose, IsRecognised) {

@@ -102,7 +102,7 @@ record::Checks union_of(record::Checks checks, const record::Checks& more) {
 // with only one driver.
 Json machines_of(const Accepted& accepted, const Manifest& stored) {
   std::vector<std::set<std::string>> machines = stored.machines;
-  for (const record::Beginning& begun : accepted.run.begun) {
+  for (const record::RunStart& begun : accepted.run.begun) {
     std::set<std::string>& drivers = machines.emplace_back();
     for (const std::string& id : begun.devices) {
       const auto device = accepted.devices.find(id);

@@ -94,7 +94,7 @@ std::string expected_outcomes_text(std::vector<Waiver> waivers) {
                      {"test", each.test},
                      {"configuration", each.configuration},
                      {"outcome", name_of(each.outcome)},
-                     {"reason", core::mended_utf8(each.reason)}};
+                     {"reason", core::repaired_utf8(each.reason)}};
     if (!each.expiry.empty()) entry["expiry"] = each.expiry;
     list.push_back(std::move(entry));
   }

@@ -123,7 +123,7 @@ void report_device_faults(const RunView& view, std::vector<Finding>& findings) {
                                        {.cause = Cause::device_fault,
                                         .facts = {{"kind", std::string(name_of(fault.kind))},
                                                   {"subject", fault.subject},
-                                                  {"last_words", fault.last_words}},
+                                                  {"last_words", fault.last_output}},
                                         .detail = fault.detail}));
     }
   }
@@ -328,7 +328,7 @@ int rank(Verdict verdict) {
 // that judges it. A run that was resumed may have been measured by several programs.
 std::string other_programs(const RunView& view) {
   std::set<std::string> programs;
-  for (const record::Beginning& each : view.run.begun) programs.insert(each.program);
+  for (const record::RunStart& each : view.run.begun) programs.insert(each.program);
   // Older stores contain the version of the program once for each run instead of once for each
   // command that measured a part of the run.
   const bool is_known = programs.erase(std::string()) == 0 && !programs.empty();
@@ -342,7 +342,7 @@ std::string other_programs(const RunView& view) {
 void report_run_contents(const RunView& view, GateResult& result) {
   for (const record::Record* record : view.measured) result.devices.insert(record->device);
   for (const auto& [id, device] : view.devices) result.environments[id] = device.environment;
-  for (const record::Beginning& each : view.run.begun) {
+  for (const record::RunStart& each : view.run.begun) {
     result.unusable.insert(result.unusable.end(), each.unusable.begin(), each.unusable.end());
   }
   for (const record::Record& record : view.records) {

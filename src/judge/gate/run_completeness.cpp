@@ -13,7 +13,7 @@ namespace {
 
 bool applies(const AbsentDevice& entry, const record::Run& run, const std::string& today) {
   const bool expired = !entry.expiry.empty() && today >= entry.expiry;
-  return !expired && std::ranges::any_of(run.begun, [&](const record::Beginning& begun) {
+  return !expired && std::ranges::any_of(run.begun, [&](const record::RunStart& begun) {
     return core::glob_matches(entry.host, begun.host);
   });
 }
@@ -31,8 +31,8 @@ bool is_excused(const RunView& view, const std::string& device) {
 bool is_requested(const RunView& view, const std::string& device) {
   const bool judged =
       view.request.devices.empty() || core::any_glob_matches(view.request.devices, device);
-  return judged && std::ranges::any_of(view.run.begun, [&](const record::Beginning& begun) {
-           return begun.asks_for(device);
+  return judged && std::ranges::any_of(view.run.begun, [&](const record::RunStart& begun) {
+           return begun.requests_device(device);
          });
 }
 
@@ -42,22 +42,23 @@ AdviceWithCommand repair_advice(const std::string& device) {
 
 // Returns whether every requested device was named in full and found. In that case, a failed device
 // enumeration cannot have hidden a requested device.
-bool found_all_requested(const record::Beginning& begun) {
-  return !begun.asked.empty() && std::ranges::all_of(begun.asked, [&](const std::string& id) {
-    return std::ranges::find(begun.found, id) != begun.found.end();
-  });
+bool found_all_requested(const record::RunStart& begun) {
+  return !begun.requested.empty() &&
+         std::ranges::all_of(begun.requested, [&](const std::string& id) {
+           return std::ranges::find(begun.found, id) != begun.found.end();
+         });
 }
 
 // Reports each device enumeration that crashed or hung, because it may have missed devices.
 void report_failed_listings(const RunView& view, std::vector<Finding>& findings) {
-  for (const record::Beginning& begun : view.run.begun) {
+  for (const record::RunStart& begun : view.run.begun) {
     if (found_all_requested(begun)) continue;
     for (const record::Unusable& each : begun.unusable) {
       const std::string api = each.api();
       // If the device is required, report_required_devices() reports why it is missing.
       const bool required = std::ranges::find(view.request.required_devices, each.what) !=
                             view.request.required_devices.end();
-      const bool matters = each.ended && begun.asks_for_api(api) && !required;
+      const bool matters = each.ended && begun.requests_api(api) && !required;
       if (!matters || is_excused(view, api) || is_excused(view, api + ":*")) continue;
       findings.push_back(finding_about(
           view, *view.checks.begin(), Verdict::cannot_judge,
@@ -161,7 +162,7 @@ void report_lost_checks(const RunView& view, std::vector<Finding>& findings) {
 // Returns the first device that matches `glob` but was unusable in this run, or nullptr if there is
 // none.
 const record::Unusable* unusable_device(const RunView& view, const std::string& glob) {
-  for (const record::Beginning& begun : view.run.begun) {
+  for (const record::RunStart& begun : view.run.begun) {
     for (const record::Unusable& each : begun.unusable) {
       if (core::glob_matches(glob, each.what)) return &each;
     }

@@ -65,7 +65,7 @@ class SameImageComparison {
                                         {"pixels", static_cast<double>(own_.image.pixel_count())},
                                         {"x", first.x},
                                         {"y", first.y}},
-                            .facts = {{"by", rule_.to_the_bit ? "bits" : "bounds"}}};
+                            .facts = {{"by", rule_.bit_identical ? "bits" : "bounds"}}};
     const Place other = other_place(first.x, first.y);
     add_pixel(observation, "", own_.image.pixel(first.x, first.y));
     add_pixel(observation, "other_", other_.image.pixel(other.x, other.y));
@@ -90,10 +90,10 @@ class SameImageComparison {
     }
     // Ids and depths are compared only where both ids are certain, that is, where their bounds are
     // 0. Elsewhere, round-off may make another surface visible.
-    const bool certain = rule_.to_the_bit || own_.bound.ids.empty() ||
+    const bool certain = rule_.bit_identical || own_.bound.ids.empty() ||
                          (own_.bound.ids[a] == 0 && other_.bound.ids[b] == 0);
     if (own_.image.ids.empty() || !certain) return true;
-    if (rule_.same_ids && own_.image.ids[a] != other_.image.ids[b]) return false;
+    if (rule_.compare_ids && own_.image.ids[a] != other_.image.ids[b]) return false;
     return values_match(own_.image.depth, own_.bound.depth, a, other_.image.depth,
                         other_.bound.depth, b, rule_.depth_scale);
   }
@@ -104,7 +104,8 @@ class SameImageComparison {
                                   const std::vector<float>& other_bounds, std::size_t b,
                                   float scale = 1) const {
     const float expected = scale * other_values[b];
-    if (rule_.to_the_bit || same_bits(values[a], expected)) return same_bits(values[a], expected);
+    if (rule_.bit_identical || same_bits(values[a], expected))
+      return same_bits(values[a], expected);
     return std::abs(static_cast<double>(values[a]) - static_cast<double>(expected)) <=
            static_cast<double>(bounds[a]) + static_cast<double>(scale * other_bounds[b]);
   }
@@ -141,7 +142,7 @@ std::optional<Observation> violation_of_rule(const record::SameImage& rule,
   }
   BoundedImage own{image};
   BoundedImage bounded_other{*other_image};
-  if (!rule.to_the_bit) {
+  if (!rule.bit_identical) {
     own.bound = truth(record).bound;
     bounded_other.bound = truth(*other).bound;
   }
@@ -151,7 +152,7 @@ std::optional<Observation> violation_of_rule(const record::SameImage& rule,
   return observation;
 }
 
-std::optional<Observation> violation_of_rule(const record::OneColour& rule,
+std::optional<Observation> violation_of_rule(const record::UniformColour& rule,
                                              const record::Record& record, StressRun& run,
                                              const FindTruth& /*truth*/) {
   const core::Image& image = *run.image(record);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/code/take_line.hpp"
+#include "measure/code/consume_line.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -101,7 +101,7 @@ struct Program {
 Program parse(std::string_view assembly) {
   Program program;
   while (!assembly.empty()) {
-    const std::string_view text = without_comment(take_line(assembly));
+    const std::string_view text = without_comment(consume_line(assembly));
     if (text.ends_with(':')) {
       program.labels.emplace(label_of(text.substr(0, text.size() - 1)), program.lines.size());
       continue;
@@ -146,9 +146,9 @@ std::vector<std::span<const Line>> innermost_loops_of(const Program& program) {
   const auto loops = loops_of(program);
   std::vector<std::span<const Line>> innermost;
   for (const auto& [begin, end] : loops) {
-    const bool holds_another = std::ranges::any_of(
+    const bool contains_loop = std::ranges::any_of(
         loops, [&](const auto& other) { return other.first > begin && other.second <= end; });
-    if (!holds_another) {
+    if (!contains_loop) {
       innermost.push_back(std::span(program.lines).subspan(begin, end - begin));
     }
   }
@@ -160,7 +160,7 @@ std::vector<std::span<const Line>> innermost_loops_of(const Program& program) {
 std::string without_waits(std::string_view assembly) {
   std::string result;
   while (!assembly.empty()) {
-    const std::string_view line = take_line(assembly);
+    const std::string_view line = consume_line(assembly);
     if (kind_of(operation_of(without_comment(line))) != Kind::wait) result.append(line) += '\n';
   }
   return result;
@@ -168,17 +168,17 @@ std::string without_waits(std::string_view assembly) {
 
 std::optional<AssemblyCounts> count_amd_instructions(std::string_view assembly) {
   const Program program = parse(assembly);
-  const auto ends = [](const Line& line) { return line.kind == Kind::wait; };
-  if (std::ranges::none_of(program.lines, ends)) return std::nullopt;
+  const auto is_wait = [](const Line& line) { return line.kind == Kind::wait; };
+  if (std::ranges::none_of(program.lines, is_wait)) return std::nullopt;
   AssemblyCounts counts{.all = count(program.lines), .sampling_loop = std::nullopt};
-  Fetch likeliest = Fetch::none;
+  Fetch most_likely = Fetch::none;
   for (const std::span<const Line> loop : innermost_loops_of(program)) {
     Fetch fetch = Fetch::none;
     for (const Line& line : loop) fetch = std::min(fetch, line.fetch);
-    if (fetch == Fetch::none || fetch > likeliest) continue;
-    counts.sampling_loops = fetch < likeliest ? 1 : counts.sampling_loops + 1;
+    if (fetch == Fetch::none || fetch > most_likely) continue;
+    counts.sampling_loops = fetch < most_likely ? 1 : counts.sampling_loops + 1;
     counts.sampling_loop = count(loop);
-    likeliest = fetch;
+    most_likely = fetch;
   }
   if (counts.sampling_loops != 1) counts.sampling_loop.reset();
   return counts;

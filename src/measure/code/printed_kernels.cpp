@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "measure/code/compiled_code.hpp"
-#include "measure/code/take_line.hpp"
+#include "measure/code/consume_line.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -31,7 +31,7 @@ std::vector<PrintedKernel> parse_printed_kernels(std::string_view printed) {
   Part part = Part::other;
   PrintedKernel kernel;
   while (!printed.empty()) {
-    const std::string_view line = take_line(printed);
+    const std::string_view line = consume_line(printed);
     if (const std::string_view next = kernel_in(line); !next.empty()) {
       if (next != name) variants = 0;
       name = next;

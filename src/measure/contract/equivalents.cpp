@@ -18,16 +18,16 @@ namespace {
 // 2⁻²⁴. The sum of these errors is less than 2⁻²².
 constexpr double alpha_rounding = 0x1.0p-22;
 
-std::string reason_for(const PlainWork& known, const PlainWork& wanted, double transmittance) {
+std::string reason_for(const PlainWork& known, const PlainWork& requested, double transmittance) {
   std::vector<std::string> reasons;
-  const auto tell = [&](const PlainWork& of, const PlainWork& beside) {
-    for (const auto& [factor, why] : of.why) {
-      if (!beside.why.contains(factor)) reasons.push_back(factor + ": " + why);
+  const auto add_reasons = [&](const PlainWork& from, const PlainWork& other) {
+    for (const auto& [factor, why] : from.why) {
+      if (!other.why.contains(factor)) reasons.push_back(factor + ": " + why);
     }
   };
-  tell(wanted, known);
-  tell(known, wanted);
-  if (known.ends_below != wanted.ends_below) {
+  add_reasons(requested, known);
+  add_reasons(known, requested);
+  if (known.ends_below != requested.ends_below) {
     reasons.push_back(fmt::format("ert: no ray's transmittance falls below {:.3g}", transmittance));
   }
   return reasons.empty() ? "the differing levels have the same effect on this device"
@@ -39,15 +39,15 @@ std::string reason_for(const PlainWork& known, const PlainWork& wanted, double t
 double least_transmittance(const Work& work, const core::Image& image) {
   const auto* volume = std::get_if<VolumeWork>(&work.scene);
   if (volume == nullptr || image.rgba.empty()) return 0;
-  const double shows = 1.0 - static_cast<double>(volume->scene.background[3]);
-  if (!(shows > 0.5)) return 0;
+  const double background_weight = 1.0 - static_cast<double>(volume->scene.background[3]);
+  if (!(background_weight > 0.5)) return 0;
   double alpha = 0;
   for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
-    const double here = static_cast<double>(image.rgba[i]);
-    if (std::isnan(here)) return 0;
-    alpha = std::max(alpha, here);
+    const double pixel_alpha = static_cast<double>(image.rgba[i]);
+    if (std::isnan(pixel_alpha)) return 0;
+    alpha = std::max(alpha, pixel_alpha);
   }
-  const double least = (1.0 - alpha - alpha_rounding) / shows;
+  const double least = (1.0 - alpha - alpha_rounding) / background_weight;
   return least > 0 ? least : 0;
 }
 
@@ -55,10 +55,10 @@ std::optional<Equivalent> Equivalents::find(const PlainWork& plain) const {
   const auto same = known_.find(plain.levels);
   if (same == known_.end()) return std::nullopt;
   for (const Known& known : same->second) {
-    const bool told_apart =
+    const bool distinguishable =
         known.plain.ends_below != plain.ends_below &&
         known.least_transmittance <= std::max(known.plain.ends_below, plain.ends_below);
-    if (told_apart) continue;
+    if (distinguishable) continue;
     return Equivalent{.key = known.key,
                       .reason = reason_for(known.plain, plain, known.least_transmittance)};
   }

@@ -10,40 +10,40 @@
 
 namespace triptych::measure {
 
-Factor choice(std::string name, std::vector<std::string> levels, std::string standard,
-              Decides decides, std::string summary) {
+Factor choice(std::string name, std::vector<std::string> levels, std::string default_value,
+              FactorRole role, std::string summary) {
   return {.name = std::move(name),
           .kind = FactorKind::choice,
           .levels = std::move(levels),
-          .standard = std::move(standard),
-          .of_scene = decides == Decides::the_image,
+          .default_value = std::move(default_value),
+          .determines_image = role == FactorRole::scene,
           .summary = std::move(summary)};
 }
 
-Factor number(std::string name, double minimum, double maximum, std::string standard,
-              Decides decides, std::string summary, std::vector<std::string> words) {
+Factor number(std::string name, double minimum, double maximum, std::string default_value,
+              FactorRole role, std::string summary, std::vector<std::string> words) {
   return {.name = std::move(name),
           .kind = FactorKind::number,
           .levels = std::move(words),
           .minimum = minimum,
           .maximum = maximum,
-          .standard = std::move(standard),
-          .of_scene = decides == Decides::the_image,
+          .default_value = std::move(default_value),
+          .determines_image = role == FactorRole::scene,
           .summary = std::move(summary)};
 }
 
-Factor text(std::string name, std::string standard, std::string summary) {
+Factor text(std::string name, std::string default_value, std::string summary) {
   return {.name = std::move(name),
           .kind = FactorKind::text,
           .levels = {},
-          .standard = std::move(standard),
-          .of_scene = true,
+          .default_value = std::move(default_value),
+          .determines_image = true,
           .summary = std::move(summary)};
 }
 
-Factor technique_factor(std::string_view suite, std::string standard, std::string summary) {
+Factor technique_factor(std::string_view suite, std::string default_value, std::string summary) {
   Factor factor =
-      choice("technique", {}, std::move(standard), Decides::how_it_is_made,
+      choice("technique", {}, std::move(default_value), FactorRole::method,
              std::move(summary) + "; auto: measure all techniques and report the fastest");
   for (const technique::Technique& each : technique::catalogue()) {
     if (each.suite != suite) continue;

@@ -40,12 +40,12 @@ struct FeatureProbe {
 };
 
 // A device that can probe features implements this interface in addition to measure::Device.
-class ProbesFeatures {
+class FeatureProber {
  public:
-  ProbesFeatures() = default;
-  ProbesFeatures(const ProbesFeatures&) = delete;
-  ProbesFeatures& operator=(const ProbesFeatures&) = delete;
-  virtual ~ProbesFeatures() = default;
+  FeatureProber() = default;
+  FeatureProber(const FeatureProber&) = delete;
+  FeatureProber& operator=(const FeatureProber&) = delete;
+  virtual ~FeatureProber() = default;
 
   // Returns the API's probes. They must not be run after the device is destroyed.
   [[nodiscard]] virtual std::vector<FeatureProbe> feature_probes() = 0;

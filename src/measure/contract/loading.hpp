@@ -17,13 +17,13 @@ struct Loading {
 
 using OnLoading = std::function<void(const Loading&)>;
 
-// Returns a function that forwards only useful reports to `tell`. If a load takes less than two
+// Returns a function that forwards only useful reports to `forward`. If a load takes less than two
 // seconds, no reports are forwarded. If it takes longer, at most one report every two seconds and
 // the final report (share 1) are forwarded. A report counts as the beginning of a new load if its
 // name differs from the name in the previous report, or if its share is smaller than the previous
 // share. Each note is forwarded only once. Tests replace the clock `now`.
-[[nodiscard]] OnLoading paced(
-    OnLoading tell,
+[[nodiscard]] OnLoading throttled(
+    OnLoading forward,
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now);
 
 }  // namespace triptych::measure

@@ -19,21 +19,21 @@ struct PixelPlace {
   int y = 0;
 };
 
-// The message of the exception that TracesPixel::trace() throws for a work whose samples cannot be
+// The message of the exception that PixelTracer::trace() throws for a work whose samples cannot be
 // recorded.
-inline constexpr const char* not_traced =
+inline constexpr const char* pixel_history_unsupported =
     "the history of a pixel cannot be recorded with quadrature=cells; use quadrature=midpoint or "
     "quadrature=preintegrated";
 
 // A prepared work whose device code has an additional build, which records the samples of one
 // pixel. This build is the counting build (the build that writes Triptych's counters) with
 // additional code for recording.
-class TracesPixel {
+class PixelTracer {
  public:
-  TracesPixel() = default;
-  TracesPixel(const TracesPixel&) = delete;
-  TracesPixel& operator=(const TracesPixel&) = delete;
-  virtual ~TracesPixel() = default;
+  PixelTracer() = default;
+  PixelTracer(const PixelTracer&) = delete;
+  PixelTracer& operator=(const PixelTracer&) = delete;
+  virtual ~PixelTracer() = default;
 
   // Draws the frame and returns the samples of the pixel (x, y). Prepared::image() then returns the
   // image of this frame. Throws the same exceptions as Prepared::frame(), and NotSupported if the
@@ -42,12 +42,12 @@ class TracesPixel {
 };
 
 // A suite whose reference renderer can report the samples of one pixel of a volume.
-class ExpectsRay {
+class RayReference {
  public:
-  ExpectsRay() = default;
-  ExpectsRay(const ExpectsRay&) = delete;
-  ExpectsRay& operator=(const ExpectsRay&) = delete;
-  virtual ~ExpectsRay() = default;
+  RayReference() = default;
+  RayReference(const RayReference&) = delete;
+  RayReference& operator=(const RayReference&) = delete;
+  virtual ~RayReference() = default;
 
   // Returns the expected samples of the pixel (x, y). All other parameters have the same meaning as
   // in SuiteWithTruth::truth(). Throws NotSupported for a quadrature whose samples cannot be
@@ -59,12 +59,12 @@ class ExpectsRay {
 
 // A suite whose reference renderer can report the visible surface in a pixel for a subset of the
 // particles.
-class ExpectsSprites {
+class SpriteReference {
  public:
-  ExpectsSprites() = default;
-  ExpectsSprites(const ExpectsSprites&) = delete;
-  ExpectsSprites& operator=(const ExpectsSprites&) = delete;
-  virtual ~ExpectsSprites() = default;
+  SpriteReference() = default;
+  SpriteReference(const SpriteReference&) = delete;
+  SpriteReference& operator=(const SpriteReference&) = delete;
+  virtual ~SpriteReference() = default;
 
   // Returns the indices of the particles that the ray of the pixel (x, y) may hit, from front to
   // back, including hidden particles. All other parameters have the same meaning as in

@@ -34,8 +34,8 @@ struct Factor {
   std::vector<std::string> levels;  // for a number: words that may be used instead
   double minimum = 0;               // for a number
   double maximum = 0;
-  std::string standard;  // the default value; "auto": the device chooses the level
-  bool of_scene = true;  // true: determines the image; false: only how it is computed
+  std::string default_value;     // the default value; "auto": the device chooses the level
+  bool determines_image = true;  // true: determines the image; false: only how it is computed
   // True for a factor that was added to the suite after scene keys had been stored. To keep those
   // keys valid, a scene key contains such a factor only if it does not have its default value.
   bool silent_default = false;
@@ -99,11 +99,11 @@ class Suite {
   [[nodiscard]] virtual Work calibration(technique::Work kind) = 0;
 
   // Sets the function that receives progress reports while data is loaded. An empty function
-  // disables the reports. paced() reduces their number.
-  void tell_of_loading(OnLoading tell) { on_loading_ = std::move(tell); }
+  // disables the reports. throttled() reduces their number.
+  void set_on_loading(OnLoading on_loading) { on_loading_ = std::move(on_loading); }
 
  protected:
-  void tell(const Loading& loading) const {
+  void report_loading(const Loading& loading) const {
     if (on_loading_) on_loading_(loading);
   }
 

@@ -30,8 +30,9 @@ bool request(unsigned operation, std::uintptr_t value) {
 }  // namespace
 
 std::optional<InstructionCounter> InstructionCounter::of_this_process() {
-  Snapshot told{};
-  if (!request(TRIPTYCH_TELL, reinterpret_cast<std::uintptr_t>(told.data()))) return std::nullopt;
+  Snapshot snapshot{};
+  if (!request(TRIPTYCH_READ_COUNTS, reinterpret_cast<std::uintptr_t>(snapshot.data())))
+    return std::nullopt;
   for (const char* name : allocators) {
     if (const void* address = ::dlsym(RTLD_DEFAULT, name)) {
       request(TRIPTYCH_FUNCTION, reinterpret_cast<std::uintptr_t>(address));
@@ -40,10 +41,10 @@ std::optional<InstructionCounter> InstructionCounter::of_this_process() {
   return InstructionCounter();
 }
 
-InstructionCounter::Snapshot InstructionCounter::now() const {
-  Snapshot told{};
-  request(TRIPTYCH_TELL, reinterpret_cast<std::uintptr_t>(told.data()));
-  return told;
+InstructionCounter::Snapshot InstructionCounter::read() const {
+  Snapshot snapshot{};
+  request(TRIPTYCH_READ_COUNTS, reinterpret_cast<std::uintptr_t>(snapshot.data()));
+  return snapshot;
 }
 
 record::Counts InstructionCounter::between(const Snapshot& before, const Snapshot& after) {
@@ -56,19 +57,19 @@ record::Counts InstructionCounter::between(const Snapshot& before, const Snapsho
 // time it falls asleep and wakes up. Therefore the process counts as quiet if it has executed fewer
 // than `own` instructions since the previous reading.
 void InstructionCounter::wait_until_quiet() const {
-  constexpr std::uint64_t own = 2000;
+  constexpr std::uint64_t own_instructions = 2000;
   constexpr std::chrono::milliseconds pause{2};
   constexpr int at_most = 1000;
   constexpr int in_a_row = 3;
   const auto total = [this] {
-    const Snapshot counts = now();
+    const Snapshot counts = read();
     return std::reduce(counts.begin(), counts.end());
   };
   std::uint64_t before = total();
   for (int i = 0, quiet = 0; i < at_most && quiet < in_a_row; ++i) {
     std::this_thread::sleep_for(pause);
     const std::uint64_t after = total();
-    quiet = after - before < own ? quiet + 1 : 0;
+    quiet = after - before < own_instructions ? quiet + 1 : 0;
     before = after;
   }
 }

@@ -21,18 +21,18 @@ class InstructionCounter {
   // tool.
   [[nodiscard]] static std::optional<InstructionCounter> of_this_process();
 
-  [[nodiscard]] Snapshot now() const;
+  [[nodiscard]] Snapshot read() const;
 
   // Returns the difference between the snapshots. The names are those of record::Record::cost:
   // "device_code", "driver", "libc", "program", "allocations", "misses".
   [[nodiscard]] static record::Counts between(const Snapshot& before, const Snapshot& after);
 
   // Runs `act`, stores the counts in `taken` and returns the result of `act`.
-  template <typename Act>
-  auto counting(record::Counts& taken, const Act& act) const {
-    const Snapshot before = now();
-    auto result = act();
-    taken = between(before, now());
+  template <typename Action>
+  auto count(record::Counts& taken, const Action& action) const {
+    const Snapshot before = read();
+    auto result = action();
+    taken = between(before, read());
     return result;
   }
 

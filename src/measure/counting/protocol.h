@@ -4,8 +4,8 @@
 
 /* Client requests (valgrind.h), numbered from VG_USERREQ_TOOL_BASE('T', 'Y'). The result of each is TRIPTYCH_COUNTS. */
 enum {
-  TRIPTYCH_TELL,    /* write the current counts to the address in the first argument */
-  TRIPTYCH_FUNCTION /* count calls of the function at this address as allocations from now on; at most eight functions */
+  TRIPTYCH_READ_COUNTS, /* write the current counts to the address in the first argument */
+  TRIPTYCH_FUNCTION     /* count calls of the function at this address as allocations from now on; at most eight functions */
 };
 
 /* The counts in the order in which they are written, as unsigned 64-bit numbers. */

@@ -203,7 +203,7 @@ static Bool requested(ThreadId thread, UWord* arguments, UWord* result) {
   if (!VG_IS_TOOL_USERREQ('T', 'Y', arguments[0])) return False;
   *result = TRIPTYCH_COUNTS;
   const UWord operation = arguments[0] - VG_USERREQ_TOOL_BASE('T', 'Y');
-  if (operation == TRIPTYCH_TELL) {
+  if (operation == TRIPTYCH_READ_COUNTS) {
     VG_(memcpy)((void*)arguments[1], counts, sizeof counts);
   } else if (operation == TRIPTYCH_FUNCTION && function_count < most_functions) {
     function_at[function_count++] = arguments[1];

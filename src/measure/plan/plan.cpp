@@ -56,7 +56,7 @@ struct PlacedOverride {
   std::vector<PlacedText> values;
 };
 
-std::vector<PlacedOverride> placed(const Overrides& overrides, const Suite& suite) {
+std::vector<PlacedOverride> with_places(const Overrides& overrides, const Suite& suite) {
   std::vector<PlacedOverride> all;
   for (const auto& [name, texts] : overrides) {
     const core::FilePlace place{.file = "--set " + name};
@@ -82,7 +82,7 @@ void apply(const std::vector<PlacedOverride>& overrides, const Suite& suite, Blo
 
 std::vector<std::string> values_in(const BlockText& block, const Factor& factor) {
   const auto found = block.values.find(factor.name);
-  return found == block.values.end() ? std::vector{standard_of(factor)} : found->second;
+  return found == block.values.end() ? std::vector{default_of(factor)} : found->second;
 }
 
 // Keeps only those of the block's values that are also in `values`. Returns false if no value would
@@ -240,7 +240,7 @@ Plan plan_of(const std::string& name, const Suite& suite, const Combinations& co
           .summary = {},
           .configurations = {},
           .varied = combinations.varied(),
-          .checks = Plan::standard_checks(),
+          .checks = Plan::default_checks(),
           .hash = {}};
 }
 
@@ -258,7 +258,7 @@ OpenPlan open_plan(std::string_view name_or_file, const Overrides& overrides,
   for (std::size_t i = 0; i < texts.size(); ++i) {
     for (const auto* each : entries_of(i)) set_values(suite, *each, texts[i]);
   }
-  const std::vector<bool> used = apply_to_all(placed(overrides, suite), suite, texts);
+  const std::vector<bool> used = apply_to_all(with_places(overrides, suite), suite, texts);
   std::vector<ValuesByFactor> blocks;
   std::vector<core::FilePlace> places;
   for (std::size_t i = 0; i < texts.size(); ++i) {
@@ -281,10 +281,11 @@ OpenPlan open_plan(std::string_view name_or_file, const Overrides& overrides,
   return {std::move(plan), suite, std::move(combinations), std::move(places)};
 }
 
-void require_few(const Combinations& combinations, const std::vector<core::FilePlace>& places,
-                 const Shard& shard, std::size_t most = most_configurations) {
+void require_at_most(const Combinations& combinations, const std::vector<core::FilePlace>& places,
+                     const Shard& shard, std::size_t most = most_configurations) {
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (combinations.most_of(i) / static_cast<std::size_t>(std::max(1, shard.count)) <= most) {
+    if (combinations.upper_bound_of(i) / static_cast<std::size_t>(std::max(1, shard.count)) <=
+        most) {
       continue;
     }
     throw core::InputError(
@@ -295,7 +296,7 @@ void require_few(const Combinations& combinations, const std::vector<core::FileP
   }
 }
 
-void hold(const Combinations& combinations, const Shard& shard, Plan& plan) {
+void add_configurations(const Combinations& combinations, const Shard& shard, Plan& plan) {
   combinations.for_each(shard,
                         [&](const Configuration& each) { plan.configurations.push_back(each); });
 }
@@ -312,7 +313,7 @@ bool Plan::judges_counters() const {
   return checks.contains(counters) || checks.contains(accuracy);
 }
 
-record::Checks Plan::standard_checks() {
+record::Checks Plan::default_checks() {
   using record::Check;
   return {Check::image, Check::counters, Check::statistics, Check::memory, Check::timing};
 }
@@ -325,8 +326,8 @@ std::string plan_name(std::string_view name_or_file) {
 Plan load_plan(std::string_view name_or_file, const Overrides& overrides,
                const FindSuite& find_suite, const Shard& shard) {
   OpenPlan open = open_plan(name_or_file, overrides, find_suite);
-  require_few(open.combinations, open.places, shard);
-  hold(open.combinations, shard, open.plan);
+  require_at_most(open.combinations, open.places, shard);
+  add_configurations(open.combinations, shard, open.plan);
   return std::move(open.plan);
 }
 
@@ -334,19 +335,19 @@ Plan list_plan(std::string_view name_or_file, const Overrides& overrides,
                const FindSuite& find_suite, const Shard& shard,
                const std::function<void(const Suite&, const Configuration&)>& use) {
   OpenPlan open = open_plan(name_or_file, overrides, find_suite);
-  require_few(open.combinations, open.places, shard, most_listed);
+  require_at_most(open.combinations, open.places, shard, most_listed);
   open.combinations.for_each(shard, [&](const Configuration& each) { use(open.suite, each); });
   return std::move(open.plan);
 }
 
 Plan default_plan(const Suite& suite, const Overrides& overrides) {
   BlockText block;
-  apply(placed(overrides, suite), suite, block);
+  apply(with_places(overrides, suite), suite, block);
   const Combinations combinations(suite, {block.values});
-  require_few(combinations, {{.file = "--set"}}, {});
+  require_at_most(combinations, {{.file = "--set"}}, {});
   Plan plan = plan_of(std::string(suite.name()) + "/defaults", suite, combinations);
   plan.automatic = block.automatic;
-  hold(combinations, {}, plan);
+  add_configurations(combinations, {}, plan);
   return plan;
 }
 
@@ -356,7 +357,7 @@ std::string configuration_key(const Suite& suite, const Configuration& configura
     const auto& [name, value] = level;
     const auto factor = std::ranges::find(suite.factors(), name, &Factor::name);
     const bool always = name == "technique" || name == "data" || name == "camera";
-    return !always && factor != suite.factors().end() && standard_of(*factor) == value;
+    return !always && factor != suite.factors().end() && default_of(*factor) == value;
   });
   return record::factor_list(named);
 }

@@ -25,7 +25,7 @@ struct Plan {
   // The checks by which the plan's runs are judged. Only the measurements needed for these checks
   // are made. For example, clocks are read only for the check `timing`, and workers run under the
   // emulator that counts instructions (counting/emulator.hpp) only for the check `cost`.
-  record::Checks checks = standard_checks();
+  record::Checks checks = default_checks();
   // The hash of the plan's YAML, which distinguishes plans with the same name. Empty if the plan
   // has no YAML.
   std::string hash;
@@ -34,7 +34,7 @@ struct Plan {
   // The factors with the value "auto", for which the fastest level is to be found.
   std::set<std::string> automatic = {};
 
-  [[nodiscard]] static record::Checks standard_checks();
+  [[nodiscard]] static record::Checks default_checks();
   [[nodiscard]] bool timed() const { return checks.contains(record::Check::timing); }
   [[nodiscard]] bool counted() const { return checks.contains(record::Check::cost); }
   [[nodiscard]] bool compiled() const { return checks.contains(record::Check::code); }

@@ -39,8 +39,8 @@ Combinations::Combinations(const Suite& suite, const std::vector<ValuesByFactor>
     Block& block = blocks_.emplace_back();
     for (const Factor* factor : slowest_first(suite)) {
       const auto given = values.find(factor->name);
-      block.push_back({factor->name,
-                       given == values.end() ? std::vector{standard_of(*factor)} : given->second});
+      block.push_back(
+          {factor->name, given == values.end() ? std::vector{default_of(*factor)} : given->second});
     }
     for (const std::string& each : data_of(block)) {
       if (!contains(data_, each)) data_.push_back(each);
@@ -54,21 +54,21 @@ void Combinations::for_each(const Shard& shard, const Use& use) const {
     throw core::InputError(fmt::format("shard {}/{}: expected i/n with 1 ≤ i ≤ n", index, count));
   }
   const auto shards = static_cast<std::size_t>(count);
-  const auto mine = static_cast<std::size_t>(index - 1);
+  const auto own_index = static_cast<std::size_t>(index - 1);
   const std::size_t whole = data_.size() / shards * shards;
   std::size_t rest = 0;
   for (std::size_t i = 0; i < data_.size(); ++i) {
     if (i >= whole) {
       for_each_of(data_[i], [&](const Configuration& each) {
-        if (rest++ % shards == mine) use(each);
+        if (rest++ % shards == own_index) use(each);
       });
-    } else if (i % shards == mine) {
+    } else if (i % shards == own_index) {
       for_each_of(data_[i], use);
     }
   }
 }
 
-std::size_t Combinations::most_of(std::size_t block) const {
+std::size_t Combinations::upper_bound_of(std::size_t block) const {
   constexpr std::size_t largest = std::numeric_limits<std::size_t>::max();
   std::size_t count = 1;
   for (const Axis& axis : blocks_[block]) {
@@ -111,12 +111,12 @@ void Combinations::for_each_of(const std::string& data, const Use& use) const {
     const std::size_t first = block->empty() || block->front().factor != "data" ? 0 : 1;
     if (first == 1) configuration["data"] = data;
     std::vector<std::size_t> place(block->size(), 0);
-    for (std::size_t turning = first + 1; turning > first;) {
+    for (std::size_t digit = first + 1; digit > first;) {
       const auto known = [&](const Block& before) { return has(before, configuration); };
       if (std::none_of(blocks_.begin(), block, known)) use(configuration);
-      for (turning = block->size(); turning > first; --turning) {
-        const Axis& axis = (*block)[turning - 1];
-        std::size_t& at = place[turning - 1];
+      for (digit = block->size(); digit > first; --digit) {
+        const Axis& axis = (*block)[digit - 1];
+        std::size_t& at = place[digit - 1];
         at = at + 1 == axis.values.size() ? 0 : at + 1;
         configuration[axis.factor] = axis.values[at];
         if (at != 0) break;

@@ -37,7 +37,7 @@ class Combinations {
 
   // Returns the number of combinations of a block, including combinations that also occur in other
   // blocks. Saturates at the largest value of the type.
-  [[nodiscard]] std::size_t most_of(std::size_t block) const;
+  [[nodiscard]] std::size_t upper_bound_of(std::size_t block) const;
 
   // Returns the factors with more than one value.
   [[nodiscard]] std::vector<std::string> varied() const;

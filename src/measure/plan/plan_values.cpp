@@ -39,8 +39,8 @@ std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  const bool whole = error == std::errc() && end == text.data() + text.size();
-  if (!whole || !std::isfinite(number)) return std::nullopt;
+  const bool is_complete = error == std::errc() && end == text.data() + text.size();
+  if (!is_complete || !std::isfinite(number)) return std::nullopt;
   return number == 0 ? 0 : number;  // −0 becomes 0
 }
 
@@ -81,7 +81,7 @@ std::string canonical_text(const Factor& factor, const PlacedText& value) {
 std::string canonical(const Suite& suite, const Factor& factor, const PlacedText& value) {
   // A plan may write the default of a factor even if it is "auto", which is not one of the factor's
   // levels.
-  if (value.text == factor.standard) return standard_of(factor);
+  if (value.text == factor.default_value) return default_of(factor);
   std::string text;
   switch (factor.kind) {
     case FactorKind::number:
@@ -109,7 +109,8 @@ bool stands_for_several(const Factor& factor, const PlacedText& value) {
 // Replaces a value such as "orbit_y:*/8" in a text factor by "orbit_y:0/8" to "orbit_y:7/8", and
 // "auto" by the factor's automatic levels. Each new value gets the place (line and column) of the
 // text that it replaces.
-std::vector<PlacedText> with_ranges(const Factor& factor, const std::vector<PlacedText>& values) {
+std::vector<PlacedText> with_expanded_ranges(const Factor& factor,
+                                             const std::vector<PlacedText>& values) {
   constexpr std::string_view all = ":*/";
   constexpr int most = 10'000;
   std::vector<PlacedText> result;
@@ -148,11 +149,11 @@ std::string suggestion(std::string_view wrong, const std::vector<std::string>& k
   return fmt::format("; expected one of: {}", fmt::join(known, ", "));
 }
 
-std::string standard_of(const Factor& factor) {
+std::string default_of(const Factor& factor) {
   if (factor.kind == FactorKind::number) {
-    if (const auto number = parse_number(factor.standard)) return fmt::format("{}", *number);
+    if (const auto number = parse_number(factor.default_value)) return fmt::format("{}", *number);
   }
-  return factor.standard;
+  return factor.default_value;
 }
 
 bool is_automatic(const Factor& factor, const std::vector<PlacedText>& given) {
@@ -162,13 +163,13 @@ bool is_automatic(const Factor& factor, const std::vector<PlacedText>& given) {
 
 std::vector<std::string> canonical_values(const Suite& suite, const Factor& factor,
                                           const std::vector<PlacedText>& given) {
-  const std::vector<PlacedText> values = with_ranges(factor, given);
+  const std::vector<PlacedText> values = with_expanded_ranges(factor, given);
   std::vector<std::string> result;
   for (const PlacedText& value : values) {
     std::string text = canonical(suite, factor, value);
-    const auto same = std::ranges::find(result, text);
-    if (same != result.end()) {
-      const PlacedText& first = values[static_cast<std::size_t>(same - result.begin())];
+    const auto duplicate = std::ranges::find(result, text);
+    if (duplicate != result.end()) {
+      const PlacedText& first = values[static_cast<std::size_t>(duplicate - result.begin())];
       throw core::InputError(
           value.place, fmt::format("'{}': {} appears twice{}", factor.name, value.text,
                                    first.text == value.text ? "" : ", first as " + first.text));

@@ -15,7 +15,7 @@ namespace triptych::measure {
 [[nodiscard]] std::string suggestion(std::string_view wrong, const std::vector<std::string>& known);
 
 // Returns the default of a factor in its canonical spelling.
-[[nodiscard]] std::string standard_of(const Factor& factor);
+[[nodiscard]] std::string default_of(const Factor& factor);
 
 // Returns whether "auto" is among the values and stands for several levels of the factor.
 [[nodiscard]] bool is_automatic(const Factor& factor, const std::vector<PlacedText>& given);

@@ -55,12 +55,13 @@ void refuse_second_document(const std::string& yaml, const std::string& file) {
   if (!parser.HandleNextDocument(starts) || !parser.HandleNextDocument(starts)) return;
   const YAML::Mark& mark = starts.last();
   const auto position = static_cast<std::size_t>(std::max(mark.pos, 0));
-  const bool said = position < yaml.size() && yaml.compare(position, 3, "---") == 0;
+  const bool starts_document = position < yaml.size() && yaml.compare(position, 3, "---") == 0;
   throw core::InputError(
       place_of(file, mark),
-      said ? "a second YAML document begins here, but a plan must be a single document"
-           : "not valid YAML: this text follows the end of the plan and cannot begin a new "
-             "document");
+      starts_document
+          ? "a second YAML document begins here, but a plan must be a single document"
+          : "not valid YAML: this text follows the end of the plan and cannot begin a new "
+            "document");
 }
 
 YAML::Node load(std::string_view yaml, const std::string& file) {

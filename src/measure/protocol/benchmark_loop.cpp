@@ -23,7 +23,7 @@ class StringReporter : public benchmark::JSONReporter {
  public:
   StringReporter() {
     SetOutputStream(&text_);
-    SetErrorStream(&complaints_);
+    SetErrorStream(&errors_);
   }
 
   void ReportRuns(const std::vector<Run>& runs) override {
@@ -49,7 +49,7 @@ class StringReporter : public benchmark::JSONReporter {
 
  private:
   std::ostringstream text_;
-  std::ostringstream complaints_;
+  std::ostringstream errors_;
   double total_ns_ = 0;
   benchmark::IterationCount executed_ = 0;
 };
@@ -77,7 +77,7 @@ BenchmarkResult run_registered(const std::string& name, int frames) {
 // Stores the first exception, so that it can be rethrown after the loop. The remaining iterations
 // do nothing. This is necessary because Google Benchmark does not handle exceptions, and aborts if
 // one of several repetitions reports an error.
-class Guarded {
+class ExceptionGuard {
  public:
   template <typename Body>
   void operator()(const Body& body) {
@@ -137,12 +137,12 @@ void initialize_benchmarks() {
 BenchmarkResult time_frames(const std::string& name, int frames,
                             const std::function<IterationTime()>& frame) {
   const Registration registration;
-  Guarded guarded;
+  ExceptionGuard guard;
   benchmark::RegisterBenchmark(name.c_str(),
                                [&](benchmark::State& state) {
                                  for (auto _ : state) {
                                    IterationTime time;
-                                   guarded([&] { time = frame(); });
+                                   guard([&] { time = frame(); });
                                    state.SetIterationTime(time.ns * 1e-9);
                                    for (const auto& [fact, value] : time.facts) {
                                      state.counters[fact] = value;
@@ -157,21 +157,21 @@ BenchmarkResult time_frames(const std::string& name, int frames,
       ->ComputeStatistics("upper_quartile", upper_quartile)
       ->ComputeStatistics("max", maximum);
   BenchmarkResult result = run_registered(name, frames);
-  guarded.rethrow();
+  guard.rethrow();
   return result;
 }
 
 BenchmarkResult time_loop(const std::string& name, int frames, const std::function<void()>& frame) {
   const Registration registration;
-  Guarded guarded;
+  ExceptionGuard guard;
   benchmark::RegisterBenchmark(name.c_str(),
                                [&](benchmark::State& state) {
-                                 for (auto _ : state) guarded(frame);
+                                 for (auto _ : state) guard(frame);
                                })
       ->UseRealTime()
       ->Iterations(frames);
   BenchmarkResult result = run_registered(name, frames);
-  guarded.rethrow();
+  guard.rethrow();
   return result;
 }
 

@@ -41,14 +41,14 @@ std::string percent(double ratio) {
 // Returns whether a clock with these ratios of device time to wall time can be trusted. If there
 // are at least five ratios, one of them may be too low, because the scheduler may wake the thread
 // late. No ratio may be too high, because correct device time is never longer than wall time.
-bool believable(const std::vector<double>& ratios) {
+bool is_trustworthy(const std::vector<double>& ratios) {
   const auto low = std::ranges::count_if(
       ratios, [](double ratio) { return !(ratio >= ClockLimits::least_ratio); });
   const bool high =
       std::ranges::any_of(ratios, [](double ratio) { return !(ratio <= ClockLimits::most_ratio); });
-  const std::ptrdiff_t excused = ratios.size() >= 5 ? 1 : 0;
+  const std::ptrdiff_t allowed_outliers = ratios.size() >= 5 ? 1 : 0;
   const bool zero = std::ranges::any_of(ratios, [](double ratio) { return !(ratio > 0); });
-  return !high && !zero && low <= excused;
+  return !high && !zero && low <= allowed_outliers;
 }
 
 std::string verdict_of(const record::ClockTrust& trust, double wall_ns, std::size_t frames) {
@@ -150,7 +150,7 @@ record::ClockTrust calibrate(Prepared& prepared, technique::Work work_kind) {
   trust.ratio = record::percentile(ratios, 0.5);
   trust.ratio_low = std::ranges::min(ratios);
   trust.ratio_high = std::ranges::max(ratios);
-  trust.trusted = believable(ratios);
+  trust.trusted = is_trustworthy(ratios);
   trust.verdict = verdict_of(trust, record::percentile(wall_ns, 0.5), ratios.size());
   return trust;
 }

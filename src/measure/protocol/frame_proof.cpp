@@ -48,21 +48,22 @@ void FrameProof::start() {
   if (started_) return;
   started_ = true;
   const core::Image before = prepared_.image();
-  const std::size_t kept = before.pixel_count() - count_pixels(before, core::is_nan_pixel);
-  if (kept > 0) {
+  const std::size_t unchanged = before.pixel_count() - count_pixels(before, core::is_nan_pixel);
+  if (unchanged > 0) {
     throw NotDrawn(
         fmt::format("the image could not be overwritten before the first frame: {} of {} pixels "
                     "kept their values, although the driver reported the fill commands as finished",
-                    kept, before.pixel_count()));
+                    unchanged, before.pixel_count()));
   }
-  if (before.pixel_count() > 0) std::copy_n(before.rgba.begin(), filling_.size(), filling_.begin());
+  if (before.pixel_count() > 0)
+    std::copy_n(before.rgba.begin(), fill_value_.size(), fill_value_.begin());
 }
 
 // Returns the number of pixels that still contain the fill value. A NaN that the device computed
 // has different bits, so it does not count as the fill value.
 std::size_t FrameProof::pixels_without_value(const core::Image& image) const {
   return count_pixels(image, [this](std::span<const float, 4> pixel) {
-    return std::memcmp(pixel.data(), filling_.data(), sizeof filling_) == 0;
+    return std::memcmp(pixel.data(), fill_value_.data(), sizeof fill_value_) == 0;
   });
 }
 
@@ -88,7 +89,7 @@ void FrameProof::read(std::string_view what) {
 
 const core::Image& FrameProof::check(std::string_view what) {
   read(what);
-  if (std::exchange(renewed_, false)) first_ = last_;
+  if (std::exchange(renew_reference_, false)) first_ = last_;
   const std::size_t differing = pixels_that_differ(*first_, last_);
   if (differing > 0) {
     throw NotDrawn(

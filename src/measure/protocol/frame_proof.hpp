@@ -42,7 +42,7 @@ class FrameProof {
   // Makes the image of the next check() the image with which later frames are compared, because a
   // frame after the warm-up may differ from the very first frame. That check() still requires that
   // its frame was drawn.
-  void begin_again() { renewed_ = true; }
+  void renew_reference() { renew_reference_ = true; }
 
   // Calls start() and draws one frame; the caller checks it.
   [[nodiscard]] Frame draw(Purpose purpose) {
@@ -63,10 +63,10 @@ class FrameProof {
 
   Prepared& prepared_;
   bool started_ = false;
-  bool renewed_ = false;
+  bool renew_reference_ = false;
   // The fill value as it was read back after poison(). The device may have changed the bits of the
   // NaN.
-  std::array<float, 4> filling_{};
+  std::array<float, 4> fill_value_{};
   std::optional<core::Image> first_;
   core::Image last_;
   std::size_t first_without_value_ = 0;

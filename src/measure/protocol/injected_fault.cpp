@@ -40,12 +40,12 @@ constexpr std::array<std::pair<std::string_view, ParticleFault>, 8> particle_fau
     {"missing_barrier", ParticleFault::missing_barrier},
     {"small_box", ParticleFault::small_box},
 }};
-constexpr std::array<std::string_view, 3> mishaps{"crash", "hang", "device_lost"};
+constexpr std::array<std::string_view, 3> immediate_faults{"crash", "hang", "device_lost"};
 constexpr std::string_view slowdown = "slowdown:";
 constexpr std::string_view lost_counter = "lost_counter";
 
 template <typename Faults>
-auto named(const Faults& faults, std::string_view name) {
+auto find_named(const Faults& faults, std::string_view name) {
   const auto found = std::ranges::find(faults, name, &Faults::value_type::first);
   return found == faults.end() ? std::nullopt : std::optional(found->second);
 }
@@ -62,8 +62,8 @@ std::optional<int> stride_of(std::string_view text) {
   return static_cast<int>(std::lround(100 / percent));
 }
 
-bool is_mishap(std::string_view fault) {
-  for (const std::string_view each : mishaps) {
+bool is_immediate_fault(std::string_view fault) {
+  for (const std::string_view each : immediate_faults) {
     if (each == fault) return true;
   }
   return false;
@@ -71,11 +71,11 @@ bool is_mishap(std::string_view fault) {
 
 // Returns whether a configuration has all levels of a list such as "technique=raycast,step=2".
 bool has_levels(const std::string& configuration, const std::string& levels) {
-  const auto wanted = record::parse_factor_list(levels);
-  const auto there = record::parse_factor_list(configuration);
-  return !wanted.empty() && std::ranges::all_of(wanted, [&](const auto& level) {
-    const auto found = there.find(level.first);
-    return found != there.end() && found->second == level.second;
+  const auto required = record::parse_factor_list(levels);
+  const auto actual = record::parse_factor_list(configuration);
+  return !required.empty() && std::ranges::all_of(required, [&](const auto& level) {
+    const auto found = actual.find(level.first);
+    return found != actual.end() && found->second == level.second;
   });
 }
 
@@ -122,13 +122,15 @@ std::string fault_names() {
   std::vector<std::string_view> names;
   for (const auto& [name, unused] : volume_faults) names.push_back(name);
   for (const auto& [name, unused] : particle_faults) names.push_back(name);
-  names.insert(names.end(), mishaps.begin(), mishaps.end());
+  names.insert(names.end(), immediate_faults.begin(), immediate_faults.end());
   names.push_back(lost_counter);
   return fmt::format("{}, slowdown:PERCENT (0.01 to 100)", fmt::join(names, ", "));
 }
 
 void check_fault(std::string_view fault) {
-  if (named(volume_faults, fault) || named(particle_faults, fault) || is_mishap(fault)) return;
+  if (find_named(volume_faults, fault) || find_named(particle_faults, fault) ||
+      is_immediate_fault(fault))
+    return;
   if (fault == lost_counter) return;
   if (fault.starts_with(slowdown) && stride_of(fault.substr(slowdown.size()))) return;
   throw core::InputError(
@@ -142,7 +144,7 @@ void inject(std::string_view fault, Work& work) {
   if (fault == "hang") hang();
   if (fault == "device_lost") throw core::DeviceLost("injected", "device_lost");
   const auto inject_into = [&](auto& options, const auto& faults) {
-    if (const auto injected = named(faults, fault)) {
+    if (const auto injected = find_named(faults, fault)) {
       options.fault = *injected;
     } else if (fault.starts_with(slowdown)) {
       options.extra_work_stride = *stride_of(fault.substr(slowdown.size()));

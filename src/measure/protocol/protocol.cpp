@@ -33,10 +33,10 @@ struct WarmUp {
 // frames the wall-clock loop draws, so that the loop does not end too early.
 WarmUp warm_up(FrameProof& proof, const Protocol& protocol) {
   WarmUp result;
-  const double enough_ns = protocol.least_loop_ns / 10;
+  const double target_ns = protocol.least_loop_ns / 10;
   double spent_ns = 0;
   while (result.frames < protocol.warm_up_frames ||
-         (spent_ns < enough_ns && result.frames < protocol.most_loop_frames)) {
+         (spent_ns < target_ns && result.frames < protocol.most_loop_frames)) {
     if (result.frames == 0) proof.start();
     const Stopwatch whole;
     const Frame frame = proof.prepared().frame(Purpose::timing);
@@ -59,8 +59,8 @@ bool is_trusted(technique::Work kind, const std::vector<record::ClockTrust>& clo
 // plausible is known only after the last frame. If the device reported no time for one of the
 // frames, the record contains no device times, because they could no longer be paired with the wall
 // times.
-core::Json time_into(record::Record& record, FrameProof& proof, int frames, const std::string& name,
-                     double& work_ns) {
+core::Json time_frames_into(record::Record& record, FrameProof& proof, int frames,
+                            const std::string& name, double& work_ns) {
   std::vector<std::optional<double>> device_ns;
   record.wall_ns.reserve(static_cast<std::size_t>(frames));
   device_ns.reserve(static_cast<std::size_t>(frames));
@@ -70,11 +70,11 @@ core::Json time_into(record::Record& record, FrameProof& proof, int frames, cons
     const Frame frame = proof.prepared().frame(Purpose::timing);
     work_ns += stopwatch.ns();
     proof.check(fmt::format("timed frame {} of {}", record.wall_ns.size() + 1, frames));
-    const bool told = frame.device_ns && std::isfinite(*frame.device_ns);
+    const bool has_device_time = frame.device_ns && std::isfinite(*frame.device_ns);
     record.wall_ns.push_back(frame.wall_ns);
-    device_ns.push_back(told ? frame.device_ns : std::nullopt);
+    device_ns.push_back(has_device_time ? frame.device_ns : std::nullopt);
     IterationTime time{.ns = frame.wall_ns, .facts = {}};
-    if (told) time.facts["device_ns"] = *frame.device_ns;
+    if (has_device_time) time.facts["device_ns"] = *frame.device_ns;
     return time;
   });
   if (std::ranges::all_of(device_ns, [](const auto& ns) { return ns.has_value(); })) {
@@ -111,7 +111,7 @@ std::string image_hash(const core::Image& image) {
 
 namespace {
 
-Measurement untimed(Prepared& prepared, const Protocol& protocol) {
+Measurement measure_untimed(Prepared& prepared, const Protocol& protocol) {
   const Stopwatch whole;
   Measurement result;
   record::Record& record = result.record;
@@ -158,10 +158,10 @@ Measurement untimed(Prepared& prepared, const Protocol& protocol) {
 
 Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
                                const InstructionCounter& counter) {
-  constexpr int frames_before = 2;
+  constexpr int uncounted_frames = 2;
   FrameProof proof(prepared);
-  for (int i = 0; i < frames_before; ++i) {
-    proof.begin_again();
+  for (int i = 0; i < uncounted_frames; ++i) {
+    proof.renew_reference();
     static_cast<void>(proof.draw(Purpose::timing));
     proof.check(fmt::format("frame {} before the counted frame", i + 1));
   }
@@ -169,7 +169,7 @@ Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
   counter.wait_until_quiet();
   Measurement result;
   record::Record& record = result.record;
-  static_cast<void>(counter.counting(record.cost, [&] { return prepared.frame(Purpose::timing); }));
+  static_cast<void>(counter.count(record.cost, [&] { return prepared.frame(Purpose::timing); }));
   proof.check("the frame whose instructions are counted");
   if (protocol.keep_image) {
     result.image = proof.take_image();
@@ -187,13 +187,13 @@ Measurement count_instructions(Prepared& prepared, const Protocol& protocol,
 Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Work work_kind,
                     const std::vector<record::ClockTrust>& clocks, const std::string& name,
                     const EnergyMeters* meters) {
-  if (!protocol.timed) return untimed(prepared, protocol);
+  if (!protocol.timed) return measure_untimed(prepared, protocol);
   const Stopwatch whole;
   initialize_benchmarks();
   Measurement result;
   record::Record& record = result.record;
   double work_ns = 0;
-  const auto counted = [&work_ns](const auto& work) {
+  const auto count_work = [&work_ns](const auto& work) {
     const Stopwatch stopwatch;
     auto value = work();
     work_ns += stopwatch.ns();
@@ -201,26 +201,27 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   };
 
   FrameProof proof(prepared);
-  const WarmUp warm = counted([&] { return warm_up(proof, protocol); });
-  proof.begin_again();
-  record.warm_up_frames = warm.frames;
-  record.frames_per_100ms = count_to_fill(100e6, warm.fastest_ns, std::numeric_limits<int>::max());
+  const WarmUp warm_up_result = count_work([&] { return warm_up(proof, protocol); });
+  proof.renew_reference();
+  record.warm_up_frames = warm_up_result.frames;
+  record.frames_per_100ms =
+      count_to_fill(100e6, warm_up_result.fastest_ns, std::numeric_limits<int>::max());
   record.loop_frames =
-      count_to_fill(protocol.least_loop_ns, warm.fastest_ns, protocol.most_loop_frames);
+      count_to_fill(protocol.least_loop_ns, warm_up_result.fastest_ns, protocol.most_loop_frames);
 
-  core::Json entries = time_into(record, proof, protocol.timed_frames, name, work_ns);
+  core::Json entries = time_frames_into(record, proof, protocol.timed_frames, name, work_ns);
   record.device_clock_trusted =
       is_trusted(work_kind, clocks) && plausible(record.device_ns, record.wall_ns);
   result.image = proof.take_image();
 
   if (protocol.statistics) {
     proof.start();
-    record.statistics = counted([&] { return prepared.frame(Purpose::statistics); }).counts;
+    record.statistics = count_work([&] { return prepared.frame(Purpose::statistics); }).counts;
     proof.check("the frame with pipeline statistics");
   }
   if (protocol.counters) {
     proof.start();
-    record.counters = counted([&] { return prepared.frame(Purpose::counters); }).counts;
+    record.counters = count_work([&] { return prepared.frame(Purpose::counters); }).counts;
     proof.check_drawn("the frame with Triptych's counters");
   }
   std::vector<double> loop_wall_ns;
@@ -231,11 +232,11 @@ Measurement measure(Prepared& prepared, const Protocol& protocol, technique::Wor
   record.loop_wall_ns = loop.total_ns;
   work_ns += loop.total_ns;
   if (meters != nullptr && protocol.has_loop()) {
-    record.energy = counted([&] { return meters->of_a_frame(draw); });
+    record.energy = count_work([&] { return meters->energy_per_frame(draw); });
   }
   proof.check("the last frame of the wall-clock loop");
   check_loop(loop_wall_ns, record.wall_ns, [&] {
-    const Frame frame = counted([&] { return proof.draw(Purpose::timing); });
+    const Frame frame = count_work([&] { return proof.draw(Purpose::timing); });
     proof.check("a frame after the wall-clock loop");
     return frame.wall_ns;
   });

@@ -52,7 +52,7 @@ ParticleWork seen_from_origin(std::vector<std::array<float, 4>> spheres, int wid
 }
 
 // Returns a scene with a single sphere around the eye, whose sprite covers the whole viewport.
-ParticleWork around_the_eye() {
+ParticleWork sphere_around_camera() {
   return seen_from_origin({{0, 0, 0, 1}}, 66, 50, 60);
 }
 
@@ -63,7 +63,7 @@ constexpr std::uint64_t small_sprites = std::uint64_t{small_columns} * small_row
 // Returns a scene with a grid of spheres. Each sphere is 5 pixels wide in the image, in a cell of 7
 // × 6.2 pixels. No sprite touches another sprite or the border. The height of a cell is not a whole
 // number, so that adjacent rows of spheres have different positions relative to the pixel grid.
-ParticleWork many_small() {
+ParticleWork many_small_spheres() {
   constexpr int width = 70;
   constexpr int height = 62;
   constexpr double fov_y_deg = 20;
@@ -125,7 +125,7 @@ record::Counts counts_of(const QuadTechnique& technique, std::uint64_t sprites) 
 std::vector<CalibrationScene> draw_scenes() {
   std::vector<CalibrationScene> scenes;
   for (const QuadTechnique& technique : quad_techniques()) {
-    const ParticleWork one = around_the_eye();
+    const ParticleWork one = sphere_around_camera();
     CalibrationScene& whole = scenes.emplace_back();
     whole.name = fmt::format("one sprite of {} over the whole view", technique.id);
     whole.expected = counts_of(technique, 1);
@@ -137,7 +137,7 @@ std::vector<CalibrationScene> draw_scenes() {
     many.name = fmt::format("{} small sprites of {}", small_sprites, technique.id);
     many.expected = counts_of(technique, small_sprites);
     many.counts_fragments = true;
-    many.work = {.technique = std::string(technique.id), .scene = many_small()};
+    many.work = {.technique = std::string(technique.id), .scene = many_small_spheres()};
   }
   return scenes;
 }
@@ -175,19 +175,19 @@ void read_scene(Device& device, const CalibrationScene& scene, Readings& reading
   const auto prepared = device.prepare(scene.work);
   const record::Counts first = prepared->frame(Purpose::statistics).counts;
   if (first.empty()) return;
-  const record::Counts again = prepared->frame(Purpose::statistics).counts;
-  const record::Counts ours = prepared->frame(Purpose::counters).counts;
+  const record::Counts second = prepared->frame(Purpose::statistics).counts;
+  const record::Counts counters = prepared->frame(Purpose::counters).counts;
   record::Counts expected = scene.expected;
   if (scene.counts_fragments) {
-    const auto fragments = find_count(ours, "fragments");
+    const auto fragments = find_count(counters, "fragments");
     if (fragments.value_or(0) > 0) expected["fragment_invocations"] = *fragments;
   }
   for (const auto& [name, value] : expected) {
     readings[name].push_back({.scene = scene.name,
                               .expected = value,
                               .first = find_count(first, name),
-                              .again = find_count(again, name),
-                              .ours = ours});
+                              .second = find_count(second, name),
+                              .counters = counters});
   }
 }
 
@@ -199,10 +199,10 @@ std::string text_of(const std::optional<std::uint64_t>& count) {
 
 // Returns the name of Triptych's counter that equals the statistic in every scene, or an empty
 // string if there is no such counter.
-std::string counted_by_us(const std::vector<CalibrationReading>& readings) {
-  for (const auto& [name, value] : readings.front().ours) {
+std::string matching_counter(const std::vector<CalibrationReading>& readings) {
+  for (const auto& [name, value] : readings.front().counters) {
     const bool same = std::ranges::all_of(readings, [&](const CalibrationReading& each) {
-      return find_count(each.ours, name) == each.first;
+      return find_count(each.counters, name) == each.first;
     });
     // A statistic that is always 0 does not count anything, even if one of Triptych's counters is
     // also always 0.
@@ -220,7 +220,7 @@ double multiple(const CalibrationReading& reading) {
 bool all_zero(const Readings& readings) {
   return std::ranges::all_of(readings, [](const auto& entry) {
     return std::ranges::all_of(entry.second, [](const CalibrationReading& each) {
-      return each.expected > 0 && each.first.value_or(1) == 0 && each.again.value_or(1) == 0;
+      return each.expected > 0 && each.first.value_or(1) == 0 && each.second.value_or(1) == 0;
     });
   });
 }
@@ -244,22 +244,22 @@ std::vector<CalibrationScene> calibration_scenes(technique::Work kind) {
 
 record::StatisticWorth calibration_verdict(const std::vector<CalibrationReading>& readings) {
   using record::Worth;
-  const auto told = [](const CalibrationReading& each) { return each.first || each.again; };
-  if (std::ranges::none_of(readings, told)) return {.worth = Worth::absent};
+  const auto is_reported = [](const CalibrationReading& each) { return each.first || each.second; };
+  if (std::ranges::none_of(readings, is_reported)) return {.worth = Worth::absent};
   const auto unsteady = std::ranges::find_if(
-      readings, [](const CalibrationReading& each) { return each.first != each.again; });
+      readings, [](const CalibrationReading& each) { return each.first != each.second; });
   if (unsteady != readings.end()) {
     return {.worth = Worth::unsteady,
             .detail = fmt::format("{}, then {} ({})", text_of(unsteady->first),
-                                  text_of(unsteady->again), unsteady->scene)};
+                                  text_of(unsteady->second), unsteady->scene)};
   }
-  if (!std::ranges::all_of(readings, told)) return differences(readings);
+  if (!std::ranges::all_of(readings, is_reported)) return differences(readings);
   if (std::ranges::all_of(
           readings, [](const CalibrationReading& each) { return each.first == each.expected; })) {
     return {.worth = Worth::exact};
   }
-  if (const std::string ours = counted_by_us(readings); !ours.empty()) {
-    return {.worth = Worth::counts, .counter = ours};
+  if (const std::string counter = matching_counter(readings); !counter.empty()) {
+    return {.worth = Worth::counts, .counter = counter};
   }
   const auto [low, high] = std::ranges::minmax(readings, {}, multiple);
   if (low.first == std::uint64_t{0}) return differences(readings);

@@ -29,14 +29,14 @@ struct CalibrationScene {
 [[nodiscard]] std::vector<CalibrationScene> calibration_scenes(technique::Work kind);
 
 // The values of a statistic that the device reported for two frames of a scene, `first` and
-// `again`. A value is nullopt if the device reported other statistics for the frame, but not this
+// `second`. A value is nullopt if the device reported other statistics for the frame, but not this
 // one.
 struct CalibrationReading {
   std::string scene;
   std::uint64_t expected = 0;
   std::optional<std::uint64_t> first;
-  std::optional<std::uint64_t> again;
-  record::Counts ours = {};  // Triptych's counters for the scene
+  std::optional<std::uint64_t> second;
+  record::Counts counters = {};  // Triptych's counters for the scene
 };
 
 // Returns the verdict on a statistic. The verdict `proportional` is possible only with readings of

@@ -43,7 +43,8 @@ std::vector<std::string> levels_of(const Suite& suite, std::string_view name) {
 // Returns the name of a scene, "camera=…,data=…". The name does not contain the factors whose
 // levels the request chooses.
 std::string scene_of(const Suite& suite, Configuration configuration) {
-  for (const char* name : chosen_factors) configuration[name] = factor_of(suite, name).standard;
+  for (const char* name : chosen_factors)
+    configuration[name] = factor_of(suite, name).default_value;
   return configuration_key(suite, configuration);
 }
 
@@ -62,11 +63,11 @@ std::string text_of_step(double step) {
 class Search {
  public:
   Search(SuiteWithTruth& suite, const RequestedError& request, Truths& truths,
-         const std::function<void(const std::string&)>& tell)
+         const std::function<void(const std::string&)>& report)
       : suite_(suite),
         request_(request),
         truths_(truths),
-        tell_(tell),
+        report_(report),
         limits_{factor_of(suite, "step").minimum, factor_of(suite, "step").maximum},
         step_error_(accuracy::step_share * request.error) {}
 
@@ -75,49 +76,49 @@ class Search {
     const std::string name = scene_of(suite_, scene);
     const accuracy::LimitImage* limit = truths_.limit_of(record_of(scene));
     if (limit == nullptr) {
-      result.out_of_reach.push_back(
+      result.unreachable.push_back(
           name +
           ": a stress scene has no limit image, so no error can be computed; choose other data");
       return;
     }
-    const auto nothing = accuracy::errors_of_empty_image(limit->image);
-    if (nothing.of(request_.metric) <= request_.error) {
-      result.out_of_reach.push_back(fmt::format(
+    const auto empty_image = accuracy::errors_of_empty_image(limit->image);
+    if (empty_image.of(request_.metric) <= request_.error) {
+      result.unreachable.push_back(fmt::format(
           "{}: an empty image already meets the error limit {}, because its error is {:.3g} and "
           "only {} of {} pixels differ from the background; request a smaller error, another "
           "metric, or a scene that covers more pixels",
-          name, text_of(request_), nothing.of(request_.metric), nothing.covered,
+          name, text_of(request_), empty_image.of(request_.metric), empty_image.covered,
           limit->image.pixel_count()));
       return;
     }
-    search_on_few_pixels(scene);
-    std::optional<Found> least;
+    prepare_small_image(scene);
+    std::optional<StepResult> best;
     const std::size_t before = result.plan.configurations.size();
     for (const std::string& quadrature : levels_of(suite_, "quadrature")) {
       Configuration candidate = scene;
       candidate["quadrature"] = quadrature;
-      const Found found = longest_step(candidate, limit->image);
+      const StepResult found = longest_step(candidate, limit->image);
       candidate["step"] = text_of_step(found.step);
-      const bool keeps = found.error <= step_error_;
-      tell_(
+      const bool meets_limit = found.error <= step_error_;
+      report_(
           fmt::format("{}: with quadrature={}, the error caused by the step size is {} "
                       "step={} (error {:.2g}, {})",
-                      name, quadrature, keeps ? "small enough at" : "too large even at",
+                      name, quadrature, meets_limit ? "small enough at" : "too large even at",
                       candidate.at("step"), found.error, name_of(request_.metric)));
-      if (keeps) add_candidates(candidate, result.plan);
-      if (!least || found.error < least->error) least = found;
+      if (meets_limit) add_candidates(candidate, result.plan);
+      if (!best || found.error < best->error) best = found;
     }
     if (result.plan.configurations.size() > before) return;
-    result.out_of_reach.push_back(fmt::format(
+    result.unreachable.push_back(fmt::format(
         "{}: the error caused by the step size may be at most {:.3g}, which is a share of "
         "the requested error {}, but it is larger with every step size; the smallest "
         "error is {:.3g}, at viewport={}",
-        name, step_error_, text_of(request_), least->error, least->viewport));
+        name, step_error_, text_of(request_), best->error, best->viewport));
   }
 
  private:
   // A step size, its error, and the size of the image that was used to compute the error.
-  struct Found {
+  struct StepResult {
     double step = 0;
     double error = 0;
     std::string viewport;
@@ -135,32 +136,33 @@ class Search {
     return accuracy::errors_against(limit, image).of(request_.metric);
   }
 
-  void search_on_few_pixels(const Configuration& scene) {
+  void prepare_small_image(const Configuration& scene) {
     const auto [width, height] = parse_viewport(scene.at("viewport"));
     const accuracy::ImageSize size = accuracy::search_size({width, height});
-    few_pixels_ = fmt::format("{}x{}", size.width, size.height);
+    small_viewport_ = fmt::format("{}x{}", size.width, size.height);
     Configuration coarse = scene;
-    coarse["viewport"] = few_pixels_;
-    limit_of_few_pixels_ = suite_.limit(coarse).image;
+    coarse["viewport"] = small_viewport_;
+    small_limit_ = suite_.limit(coarse).image;
   }
 
   // Returns the longest step with which the candidate's quadrature meets the limit step_error_. The
   // step is first estimated with a small image, and then checked with the complete image.
-  [[nodiscard]] Found longest_step(Configuration candidate, const core::Image& limit) {
-    const std::string viewport = std::exchange(candidate["viewport"], few_pixels_);
+  [[nodiscard]] StepResult longest_step(Configuration candidate, const core::Image& limit) {
+    const std::string viewport = std::exchange(candidate["viewport"], small_viewport_);
     accuracy::StepLimits limits = limits_;
     // The quadrature `cells` divides a ray into ⌈1/step⌉ parts between two voxel planes, so all
     // steps of 1 or more are equivalent.
     if (candidate.at("quadrature") == "cells") limits.longest = std::min(limits.longest, 1.0);
     const accuracy::StepError guess = accuracy::longest_step(step_error_, limits, [&](double step) {
       candidate["step"] = text_of_step(step);
-      return error(limit_of_few_pixels_, suite_.truth(candidate, {}).truth);
+      return error(small_limit_, suite_.truth(candidate, {}).truth);
     });
     // An error computed from a small image is only an estimate. However, if it exceeds the limit
     // step_error_ by more than this factor, the error of the complete image also exceeds that
     // limit.
-    constexpr double far = 4;
-    if (!(guess.error <= far * step_error_)) return {guess.step, guess.error, few_pixels_};
+    constexpr double rejection_factor = 4;
+    if (!(guess.error <= rejection_factor * step_error_))
+      return {guess.step, guess.error, small_viewport_};
     candidate["viewport"] = viewport;
     const accuracy::StepError found =
         accuracy::shortened_step(guess.step, step_error_, limits, [&](double step) {
@@ -172,8 +174,8 @@ class Search {
 
   void add_candidates(Configuration candidate, Plan& plan) const {
     const Factor& ert = factor_of(suite_, "ert");
-    const double enough = rounded_down(accuracy::termination_share * request_.error);
-    candidate["ert"] = fmt::format("{}", std::clamp(enough, ert.minimum, ert.maximum));
+    const double threshold = rounded_down(accuracy::termination_share * request_.error);
+    candidate["ert"] = fmt::format("{}", std::clamp(threshold, ert.minimum, ert.maximum));
     for (const std::string& skip : levels_of(suite_, "skip")) {
       candidate["skip"] = skip;
       plan.configurations.push_back(candidate);
@@ -190,11 +192,11 @@ class Search {
   SuiteWithTruth& suite_;
   RequestedError request_;
   Truths& truths_;
-  const std::function<void(const std::string&)>& tell_;
+  const std::function<void(const std::string&)>& report_;
   accuracy::StepLimits limits_;
   double step_error_;
-  std::string few_pixels_;
-  core::Image limit_of_few_pixels_;
+  std::string small_viewport_;
+  core::Image small_limit_;
 };
 
 // The results of one device for a scene.
@@ -202,11 +204,11 @@ struct Group {
   std::vector<accuracy::TimedError> cases;
   std::vector<accuracy::ErrorsByMetric> errors;
   std::vector<const record::Record*> records;
-  accuracy::ErrorsByMetric nothing;
+  accuracy::ErrorsByMetric empty_image;
 };
 
 ErrorAnswer answer_of(const Group& group, const RequestedError& request) {
-  ErrorAnswer answer{.nothing = group.nothing};
+  ErrorAnswer answer{.empty_image = group.empty_image};
   if (group.cases.empty()) return answer;
   const auto best = accuracy::cheapest(group.cases, request.error);
   const auto nearest = std::ranges::min_element(group.cases, {}, &accuracy::TimedError::error);
@@ -222,18 +224,18 @@ ErrorAnswer answer_of(const Group& group, const RequestedError& request) {
 }  // namespace
 
 ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite, const RequestedError& request,
-                           Truths& truths, const std::function<void(const std::string&)>& tell) {
+                           Truths& truths, const std::function<void(const std::string&)>& report) {
   if (plan.counted()) {
     throw core::InputError(fmt::format(
         "--error requires a plan that measures frame times, but plan {} counts instructions",
         plan.name));
   }
-  ErrorRequest result{.plan = plan, .out_of_reach = {}};
+  ErrorRequest result{.plan = plan, .unreachable = {}};
   result.plan.checks.insert(record::Check::timing);
   result.plan.name = fmt::format("{} within {}", plan.name, text_of(request));
   result.plan.configurations.clear();
   result.plan.varied.assign(chosen_factors.begin(), chosen_factors.end());
-  Search search(suite, request, truths, tell);
+  Search search(suite, request, truths, report);
   std::set<std::string> seen;
   for (Configuration scene : plan.configurations) {
     scene["adapt"] = "0";
@@ -256,8 +258,8 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
     if (record.outcome == record::Outcome::skipped) continue;
     // Uses the levels that the plan requested. record.factors cannot be used, because it contains
     // resolved levels where the plan has "auto".
-    const auto asked = record::parse_factor_list(record.configuration);
-    Group& group = groups[{record.device, scene_of(suite, asked)}];
+    const auto requested = record::parse_factor_list(record.configuration);
+    Group& group = groups[{record.device, scene_of(suite, requested)}];
     if (record.outcome != record::Outcome::measured || record.image.empty()) continue;
     const accuracy::LimitImage* limit = truths.limit_of(record);
     if (limit == nullptr) continue;
@@ -268,7 +270,7 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
         {summary ? std::optional(summary->median) : std::nullopt, errors.of(request.metric)});
     group.errors.push_back(errors);
     group.records.push_back(&record);
-    group.nothing = accuracy::errors_of_empty_image(limit->image);
+    group.empty_image = accuracy::errors_of_empty_image(limit->image);
   }
   std::vector<ErrorAnswer> answers;
   for (const auto& [key, group] : groups) {
@@ -281,10 +283,10 @@ std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records
 
 std::string describe(const ErrorAnswer& answer, const RequestedError& request) {
   const double error = answer.errors.of(request.metric);
-  const double nothing = answer.nothing.of(request.metric);
+  const double empty_image = answer.empty_image.of(request.metric);
   if (answer.record == nullptr) {
-    const std::string why = nothing > 0 ? fmt::format("the smallest error is {:.3g}", error)
-                                        : std::string("no image was drawn");
+    const std::string why = empty_image > 0 ? fmt::format("the smallest error is {:.3g}", error)
+                                            : std::string("no image was drawn");
     return fmt::format("{} {}: no candidate meets the error limit {}; {}", answer.device,
                        answer.scene, text_of(request), why);
   }
@@ -295,7 +297,7 @@ std::string describe(const ErrorAnswer& answer, const RequestedError& request) {
   std::string text = fmt::format(
       "{} {}: {}{:.3f} ms, error {:.3g} (limit {}), {:.2g} % of the error of an empty image",
       answer.device, answer.scene, factors, answer.time_ns / 1e6, error, text_of(request),
-      100 * error / nothing);
+      100 * error / empty_image);
   for (const accuracy::Metric metric : accuracy::all_metrics) {
     if (metric == request.metric) continue;
     text += fmt::format(", {} {:.3g}", name_of(metric), answer.errors.of(metric));

@@ -17,7 +17,7 @@ struct ErrorRequest {
   Plan plan;  // contains the candidates for all scenes in which the error can be met
   // One line for each scene in which no candidate can meet the requested error, with the reason and
   // the smallest error that is possible in the scene.
-  std::vector<std::string> out_of_reach;
+  std::vector<std::string> unreachable;
 };
 
 // Chooses the levels of `step`, `quadrature`, `ert`, `skip` and `adapt`. The plan's levels of these
@@ -34,7 +34,7 @@ struct ErrorRequest {
 // Throws InputError for a suite without these factors.
 [[nodiscard]] ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite,
                                          const accuracy::RequestedError& request, Truths& truths,
-                                         const std::function<void(const std::string&)>& tell);
+                                         const std::function<void(const std::string&)>& report);
 
 // The fastest record of one scene and device whose image meets the error.
 struct ErrorAnswer {
@@ -42,7 +42,7 @@ struct ErrorAnswer {
   std::string scene;                       // the factors that the request did not choose
   const record::Record* record = nullptr;  // null if no candidate meets the error on the device
   accuracy::ErrorsByMetric errors;         // errors of the record, or of the closest candidate
-  accuracy::ErrorsByMetric nothing;        // errors of an empty image
+  accuracy::ErrorsByMetric empty_image;    // errors of an empty image
   double time_ns = 0;                      // median frame time of the record
 };
 // Returns the answers for all scenes and devices in the records, which must outlive the result. If

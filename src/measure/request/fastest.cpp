@@ -33,33 +33,34 @@ std::string chosen_levels(const Record& record, const std::set<std::string>& cho
   return text;
 }
 
-std::optional<Contestant> counted(const Record& record) {
+std::optional<Candidate> counted(const Record& record) {
   const auto instructions = record.instructions();
   if (!instructions) return std::nullopt;
   const auto amount = static_cast<double>(*instructions);
-  return Contestant{&record, amount, amount};
+  return Candidate{&record, amount, amount};
 }
 
-std::optional<Contestant> timed(const Record& record, std::string_view clock) {
+std::optional<Candidate> timed(const Record& record, std::string_view clock) {
   const auto summary = record::summarise(record.time_ns_by(clock));
   if (!summary) return std::nullopt;
-  return Contestant{&record, summary->minimum, summary->median};
+  return Candidate{&record, summary->minimum, summary->median};
 }
 
-Ruler ruler_of(const std::vector<const Record*>& measured) {
+ComparedQuantity quantity_of(const std::vector<const Record*>& measured) {
   if (std::ranges::any_of(measured, [](const Record* each) { return !each->cost.empty(); })) {
-    return Ruler::instructions;
+    return ComparedQuantity::instructions;
   }
   const auto by_device = [](const Record* each) { return each->clock() == "device"; };
-  return std::ranges::all_of(measured, by_device) ? Ruler::device_clock : Ruler::wall_clock;
+  return std::ranges::all_of(measured, by_device) ? ComparedQuantity::device_clock
+                                                  : ComparedQuantity::wall_clock;
 }
 
-// Sorts the contestants (measured records that are compared), and keeps only the fastest contestant
+// Sorts the candidates (measured records that are compared), and keeps only the fastest candidate
 // for each combination of levels of the chosen factors.
-void keep_fastest(std::vector<Contestant>& contestants, const std::set<std::string>& chosen) {
-  std::ranges::stable_sort(contestants, {}, &Contestant::amount);
+void keep_fastest(std::vector<Candidate>& candidates, const std::set<std::string>& chosen) {
+  std::ranges::stable_sort(candidates, {}, &Candidate::amount);
   std::set<std::string> seen;
-  std::erase_if(contestants, [&](const Contestant& each) {
+  std::erase_if(candidates, [&](const Candidate& each) {
     return !seen.insert(chosen_levels(*each.record, chosen)).second;
   });
 }
@@ -71,33 +72,33 @@ FastestAnswer answer_of(const std::vector<const Record*>& records,
   for (const Record* each : records) {
     (each->outcome == record::Outcome::measured ? measured : answer.not_drawn).push_back(each);
   }
-  answer.ruler = ruler_of(measured);
+  answer.quantity = quantity_of(measured);
   for (const Record* each : measured) {
-    const auto contestant =
-        answer.ruler == Ruler::instructions
+    const auto candidate =
+        answer.quantity == ComparedQuantity::instructions
             ? counted(*each)
-            : timed(*each, answer.ruler == Ruler::device_clock ? "device" : "wall");
-    if (contestant) answer.contestants.push_back(*contestant);
+            : timed(*each, answer.quantity == ComparedQuantity::device_clock ? "device" : "wall");
+    if (candidate) answer.candidates.push_back(*candidate);
   }
-  keep_fastest(answer.contestants, chosen);
+  keep_fastest(answer.candidates, chosen);
   return answer;
 }
 
-std::string praise(const Contestant& contestant, Ruler ruler) {
-  if (ruler == Ruler::instructions) {
-    return fmt::format("executes the fewest instructions, {:.1f} million", contestant.amount / 1e6);
+std::string describe_fastest(const Candidate& candidate, ComparedQuantity quantity) {
+  if (quantity == ComparedQuantity::instructions) {
+    return fmt::format("executes the fewest instructions, {:.1f} million", candidate.amount / 1e6);
   }
   return fmt::format("is the fastest, minimum {:.3f} ms, median {:.3f} ms ({} clock)",
-                     contestant.amount / 1e6, contestant.usually / 1e6,
-                     ruler == Ruler::device_clock ? "device" : "wall");
+                     candidate.amount / 1e6, candidate.median / 1e6,
+                     quantity == ComparedQuantity::device_clock ? "device" : "wall");
 }
 
 // Removes from the plan the techniques that needed more than twice the time (or the instructions)
 // of the fastest technique.
-void keep_in_question(Plan& plan, const FastestAnswer& answer) {
+void drop_slow_techniques(Plan& plan, const FastestAnswer& answer) {
   std::set<std::string> techniques;
-  for (const Contestant& each : answer.contestants) {
-    if (each.amount <= 2 * answer.contestants.front().amount) {
+  for (const Candidate& each : answer.candidates) {
+    if (each.amount <= 2 * answer.candidates.front().amount) {
       techniques.insert(each.record->technique);
     }
   }
@@ -127,34 +128,37 @@ std::vector<FastestAnswer> answer_fastest(const std::vector<Record>& records, co
   return answers;
 }
 
-FastestTried try_for_fastest(Plan plan, const Suite& suite,
-                             const std::function<std::vector<record::Record>(const Plan&)>& trial) {
-  FastestTried tried{.records = trial(plan), .answers = {}};
-  const auto answer = [&] { tried.answers = answer_fastest(tried.records, suite, plan.automatic); };
+FastestTrials find_fastest(Plan plan, const Suite& suite,
+                           const std::function<std::vector<record::Record>(const Plan&)>& trial) {
+  FastestTrials trials{.records = trial(plan), .answers = {}};
+  const auto answer = [&] {
+    trials.answers = answer_fastest(trials.records, suite, plan.automatic);
+  };
   answer();
-  if (tried.answers.empty() || tried.answers.front().contestants.empty()) return tried;
-  keep_in_question(plan, tried.answers.front());
+  if (trials.answers.empty() || trials.answers.front().candidates.empty()) return trials;
+  drop_slow_techniques(plan, trials.answers.front());
   if (plan.configurations.size() > 1) {
-    std::ranges::move(trial(plan), std::back_inserter(tried.records));
+    std::ranges::move(trial(plan), std::back_inserter(trials.records));
     answer();
   }
-  return tried;
+  return trials;
 }
 
 std::string describe(const FastestAnswer& answer, const std::set<std::string>& chosen) {
   std::string text = fmt::format("{} {}: ", answer.device, answer.scene);
-  if (answer.contestants.empty()) {
+  if (answer.candidates.empty()) {
     text += "no technique was measured, so none can be recommended";
   } else {
-    const Contestant& best = answer.contestants.front();
-    const bool counted = answer.ruler == Ruler::instructions;
-    text += fmt::format("{} {}", chosen_levels(*best.record, chosen), praise(best, answer.ruler));
-    for (std::size_t i = 1; i < answer.contestants.size(); ++i) {
-      const Contestant& each = answer.contestants[i];
+    const Candidate& best = answer.candidates.front();
+    const bool counted = answer.quantity == ComparedQuantity::instructions;
+    text += fmt::format("{} {}", chosen_levels(*best.record, chosen),
+                        describe_fastest(best, answer.quantity));
+    for (std::size_t i = 1; i < answer.candidates.size(); ++i) {
+      const Candidate& each = answer.candidates[i];
       text += fmt::format("{}{} {} {:.2f} times as {}{}", i == 1 ? "; " : ", ",
                           chosen_levels(*each.record, chosen), counted ? "executes" : "takes",
                           each.amount / best.amount, counted ? "many" : "long",
-                          each.amount <= best.usually ? " (no clear difference)" : "");
+                          each.amount <= best.median ? " (no clear difference)" : "");
     }
   }
   for (std::size_t i = 0; i < answer.not_drawn.size(); ++i) {

@@ -15,23 +15,23 @@ namespace triptych::measure {
 
 // The measurement that is compared. For plans that count instructions, it is the number of
 // instructions in device code and driver. Otherwise it is the time on the device clock if that
-// clock is trusted for all contestants (the records that are compared), or else the time on the
+// clock is trusted for all candidates (the records that are compared), or else the time on the
 // wall clock.
-enum class Ruler : std::uint8_t { device_clock, wall_clock, instructions };
+enum class ComparedQuantity : std::uint8_t { device_clock, wall_clock, instructions };
 
-struct Contestant {
+struct Candidate {
   const record::Record* record = nullptr;
   // The time of the fastest frame in nanoseconds, or the number of instructions. The fastest frame
   // is used because disturbances only add time.
   double amount = 0;
-  double usually = 0;  // median frame time in nanoseconds; for instructions, equal to `amount`
+  double median = 0;  // median frame time in nanoseconds; for instructions, equal to `amount`
 };
 
 struct FastestAnswer {
   std::string device;
   std::string scene;  // the factors that are not chosen automatically
-  Ruler ruler = Ruler::wall_clock;
-  std::vector<Contestant> contestants;  // fastest first; ties in the order of measurement
+  ComparedQuantity quantity = ComparedQuantity::wall_clock;
+  std::vector<Candidate> candidates;  // fastest first; ties in the order of measurement
   std::vector<const record::Record*> not_drawn;
 };
 
@@ -45,13 +45,13 @@ struct FastestAnswer {
 // The result of trials of a plan with one scene on one device. The first trial is short and
 // contains all techniques. The second trial contains the techniques that may still be the fastest,
 // because a disturbance may have doubled a time in the first trial. If no technique can be chosen,
-// there is no answer, or an answer without contestants. The answers point to the records.
-struct FastestTried {
+// there is no answer, or an answer without candidates. The answers point to the records.
+struct FastestTrials {
   std::vector<record::Record> records;
   std::vector<FastestAnswer> answers;
 };
 // Runs the trials. `trial` measures a plan and returns its records.
-[[nodiscard]] FastestTried try_for_fastest(
+[[nodiscard]] FastestTrials find_fastest(
     Plan plan, const Suite& suite,
     const std::function<std::vector<record::Record>(const Plan&)>& trial);
 

@@ -9,7 +9,7 @@ void AheadCompiler::compile(Job job) {
   job.protocol.ahead = true;
   const bool open = slot_.open([this] { return Start{.suite = suite_, .statistics = false}; },
                                [](const Hello&) {});
-  if (open) static_cast<void>(slot_.ask(to_message(job), limit_, {}));
+  if (open) static_cast<void>(slot_.run_job(to_message(job), limit_, {}));
   spent_ns_ += stopwatch.ns();
 }
 

@@ -15,7 +15,7 @@
 namespace triptych::measure {
 namespace {
 
-record::Record ended(record::Outcome outcome, record::Reason reason) {
+record::Record ended_record(record::Outcome outcome, record::Reason reason) {
   record::Record record;
   record.outcome = outcome;
   record.reason = std::move(reason);
@@ -46,7 +46,7 @@ DeviceRun::DeviceRun(const RunContext& context, std::string device)
       cache_(cache_name(side(), context.plan.counted())),
       slot_(worker_setup(side(), context.plan.counted(), cache_, context.options.start_limit),
             context.interrupts) {
-  remember();
+  restore_device();
   if (!context.plan.counted()) return;
   if (auto setup = ahead_setup(side(), cache_, context.options.start_limit)) {
     ahead_.emplace(std::move(*setup), context.plan.suite, context.interrupts);
@@ -57,32 +57,32 @@ SideOptions DeviceRun::side() const {
   return {device_, context_.options.worker_command, context_.options.worker_environment};
 }
 
-Done DeviceRun::perform(const Configuration& configuration, const std::string& key,
-                        const OnLoading& on_loading) {
+ConfigurationResult DeviceRun::measure(const Configuration& configuration, const std::string& key,
+                                       const OnLoading& on_loading) {
   const Job job = this->job(configuration, key);
-  Done done;
+  ConfigurationResult result;
   if (!context_.plan.compiled() && compile_only(device_)) {
-    done = {ended(record::Outcome::skipped,
-                  {.cause = record::Cause::not_supported, .detail = std::string(only_compiles)})};
+    result = {ended_record(record::Outcome::skipped, {.cause = record::Cause::not_supported,
+                                                      .detail = std::string(only_compiles)})};
   } else if (const auto reason = no_emulator()) {
-    done = {ended(record::Outcome::skipped, *reason)};
+    result = {ended_record(record::Outcome::skipped, *reason)};
   } else if (!ensure_worker()) {
-    done = {ended(slot_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
-                  slot_.why_closed())};
+    result = {ended_record(slot_.unsupported() ? record::Outcome::skipped : record::Outcome::failed,
+                           slot_.why_closed())};
   } else if (job.protocol.counted && known_->cpu_features.empty()) {
-    done = {ended(record::Outcome::skipped, {.cause = record::Cause::not_on_processor})};
+    result = {ended_record(record::Outcome::skipped, {.cause = record::Cause::not_on_processor})};
   } else {
     if (ahead_ && job.faults.empty()) ahead_->compile(job);
-    done = ask(job, on_loading);
+    result = run_job(job, on_loading);
   }
-  if (job.protocol.counted) only_counted(done.record);
-  sign(job, key, done.record);
-  return done;
+  if (job.protocol.counted) adjust_counted_record(result.record);
+  set_identity(job, key, result.record);
+  return result;
 }
 
 // Changes a failure under the emulator (which counts instructions) to a skip, because the emulator
 // may have caused the failure. Other plans draw the same configuration without the emulator.
-void DeviceRun::only_counted(record::Record& record) const {
+void DeviceRun::adjust_counted_record(record::Record& record) const {
   if (record.outcome == record::Outcome::measured) {
     record.counted_by = std::get<Emulator>(find_emulator()).name;
   } else if (record.outcome != record::Outcome::skipped) {
@@ -99,11 +99,11 @@ std::optional<record::Reason> DeviceRun::no_emulator() const {
   return std::nullopt;
 }
 
-Done DeviceRun::pass_by(const Configuration& configuration, const std::string& key,
-                        const Ended& why) const {
-  Done done{ended(why.outcome, why.reason)};
-  sign(job(configuration, key), key, done.record);
-  return done;
+ConfigurationResult DeviceRun::record_untried(const Configuration& configuration,
+                                              const std::string& key, const Ended& why) const {
+  ConfigurationResult result{ended_record(why.outcome, why.reason)};
+  set_identity(job(configuration, key), key, result.record);
+  return result;
 }
 
 void DeviceRun::finish() {
@@ -116,7 +116,7 @@ void DeviceRun::finish() {
 
 // Restores the device's entry from the store when a run is resumed, so that all records of the run
 // use the same clock calibration.
-void DeviceRun::remember() {
+void DeviceRun::restore_device() {
   for (auto& entry : context_.store.devices(context_.run)) {
     if (entry.device.id != device_) continue;
     known_ = std::move(entry.device);
@@ -149,7 +149,7 @@ Job DeviceRun::job(const Configuration& configuration, const std::string& key) c
 }
 
 // Sets the run, the configuration, the scene and the device of a record.
-void DeviceRun::sign(const Job& job, const std::string& key, record::Record& record) const {
+void DeviceRun::set_identity(const Job& job, const std::string& key, record::Record& record) const {
   record.run = context_.run;
   record.suite = context_.plan.suite;
   record.plan = context_.plan.name;
@@ -165,7 +165,7 @@ void DeviceRun::sign(const Job& job, const std::string& key, record::Record& rec
 // `most_growth` for most configurations. Smaller growth is normal, because a driver may keep a few
 // megabytes of compiled code for each new configuration. Peaks are compared, because reusing freed
 // memory does not raise the peak.
-void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
+void DeviceRun::check_memory_growth(std::uint64_t peak_bytes) {
   constexpr std::size_t least_configurations = 8;
   constexpr std::uint64_t most_growth = std::uint64_t{16} << 20U;
   // If the peak is smaller than before, a new worker has been started.
@@ -192,7 +192,7 @@ void DeviceRun::watch_memory(std::uint64_t peak_bytes) {
 // longer draws anything. In this case, a second worker, which does not calibrate, draws the
 // configurations.
 bool DeviceRun::ensure_worker() {
-  bool is_spoilt = false;
+  bool calibration_failed = false;
   const auto open = [&] {
     return slot_.open(
         [this] {
@@ -202,12 +202,13 @@ bool DeviceRun::ensure_worker() {
                        .statistics = !known_ || !has_statistics_fault(*known_)};
         },
         [&](const Hello& hello) {
-          is_spoilt = clocks_.size() < hello.clocks.size() && has_failed_calibration(hello);
+          calibration_failed =
+              clocks_.size() < hello.clocks.size() && has_failed_calibration(hello);
           greet(hello);
         });
   };
   if (!open()) return false;
-  if (!is_spoilt) return true;
+  if (!calibration_failed) return true;
   slot_.vacate();
   return open();
 }
@@ -226,25 +227,27 @@ void DeviceRun::greet(const Hello& hello) {
 }
 
 std::chrono::seconds DeviceRun::limit() const {
-  const std::chrono::seconds asked = context_.options.limit;
-  if (context_.plan.counted()) return std::max(counted_limit, asked);
+  const std::chrono::seconds requested = context_.options.limit;
+  if (context_.plan.counted()) return std::max(counted_limit, requested);
   // A plan that only compiles has a longer default limit. A limit that the user has set applies
   // even if it is shorter.
-  return context_.plan.compiled() && asked == record::standard_limit ? compiled_limit : asked;
+  return context_.plan.compiled() && requested == record::default_limit ? compiled_limit
+                                                                        : requested;
 }
 
-Done DeviceRun::ask(const Job& job, const OnLoading& on_loading) {
+ConfigurationResult DeviceRun::run_job(const Job& job, const OnLoading& on_loading) {
   const Stopwatch stopwatch;
-  auto reply = slot_.ask(to_message(job), limit(), on_loading);
-  if (const auto* lost = std::get_if<Ended>(&reply)) return {ended(lost->outcome, lost->reason)};
+  auto reply = slot_.run_job(to_message(job), limit(), on_loading);
+  if (const auto* lost = std::get_if<Ended>(&reply))
+    return {ended_record(lost->outcome, lost->reason)};
   Answer& answer = std::get<Answer>(reply);
-  watch_memory(answer.record.peak_memory_bytes);
-  Done done{.record = std::move(answer.record),
-            .exr = std::move(answer.exr),
-            .listings = std::move(answer.listings),
-            .work_ns = answer.worker_ns - answer.record.overhead_ns};
-  done.record.overhead_ns = stopwatch.ns() - done.work_ns;
-  return done;
+  check_memory_growth(answer.record.peak_memory_bytes);
+  ConfigurationResult result{.record = std::move(answer.record),
+                             .exr = std::move(answer.exr),
+                             .listings = std::move(answer.listings),
+                             .work_ns = answer.worker_ns - answer.record.overhead_ns};
+  result.record.overhead_ns = stopwatch.ns() - result.work_ns;
+  return result;
 }
 
 }  // namespace triptych::measure

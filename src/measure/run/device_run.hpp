@@ -31,7 +31,7 @@ struct RunContext {
 
 // The result of one configuration on one device. `work_ns` is the part of the elapsed time that was
 // spent on the device's work.
-struct Done {
+struct ConfigurationResult {
   record::Record record;
   std::vector<std::byte> exr = {};
   std::map<std::string, std::string> listings = {};  // disassemblies by content hash
@@ -50,12 +50,12 @@ class DeviceRun {
   // the device has changed since the run began.
 
   // Measures the configuration by the complete protocol.
-  [[nodiscard]] Done perform(const Configuration& configuration, const std::string& key,
-                             const OnLoading& on_loading);
+  [[nodiscard]] ConfigurationResult measure(const Configuration& configuration,
+                                            const std::string& key, const OnLoading& on_loading);
 
   // Returns a record with the outcome and the reason in `why`, without drawing the configuration.
-  [[nodiscard]] Done pass_by(const Configuration& configuration, const std::string& key,
-                             const Ended& why) const;
+  [[nodiscard]] ConfigurationResult record_untried(const Configuration& configuration,
+                                                   const std::string& key, const Ended& why) const;
 
   // Lets the worker exit, and stores a device fault if the worker crashes or hangs while it closes
   // the device.
@@ -69,19 +69,19 @@ class DeviceRun {
 
  private:
   [[nodiscard]] SideOptions side() const;
-  void remember();
+  void restore_device();
   [[nodiscard]] Protocol protocol() const;
   // See WorkerSlot::open.
   bool ensure_worker();
   void greet(const Hello& hello);
   [[nodiscard]] Job job(const Configuration& configuration, const std::string& key) const;
-  void sign(const Job& job, const std::string& key, record::Record& record) const;
+  void set_identity(const Job& job, const std::string& key, record::Record& record) const;
   // Returns the time limit for one configuration.
   [[nodiscard]] std::chrono::seconds limit() const;
-  [[nodiscard]] Done ask(const Job& job, const OnLoading& on_loading);
+  [[nodiscard]] ConfigurationResult run_job(const Job& job, const OnLoading& on_loading);
   // Records a device fault if the worker's memory grows from configuration to configuration.
-  void watch_memory(std::uint64_t peak_bytes);
-  void only_counted(record::Record& record) const;
+  void check_memory_growth(std::uint64_t peak_bytes);
+  void adjust_counted_record(record::Record& record) const;
   // If the plan counts instructions but this machine cannot count them, returns the reason.
   // Otherwise returns nullopt.
   [[nodiscard]] std::optional<record::Reason> no_emulator() const;

@@ -22,10 +22,10 @@ void require_inside(const core::Image& image, PixelPlace place) {
 }
 
 TracedPixel trace_pixel(Prepared& prepared, PixelPlace place) {
-  auto* const traces = dynamic_cast<TracesPixel*>(&prepared);
-  if (traces == nullptr) throw core::NotSupported(not_traced);
+  auto* const tracer = dynamic_cast<PixelTracer*>(&prepared);
+  if (tracer == nullptr) throw core::NotSupported(pixel_history_unsupported);
   prepared.poison();
-  technique::RayTrace trace = traces->trace(place.x, place.y);
+  technique::RayTrace trace = tracer->trace(place.x, place.y);
   return {.place = place, .trace = std::move(trace), .image = prepared.image(), .sprites = {}};
 }
 

@@ -15,7 +15,7 @@
 namespace triptych::measure {
 namespace {
 
-constexpr std::array<Side, 2> both{Side::a, Side::b};
+constexpr std::array<Side, 2> both_sides{Side::a, Side::b};
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double mean_of(const std::vector<double>& values) {
@@ -46,7 +46,7 @@ std::vector<double> differences(std::span<const Block> blocks, SideClock clock) 
   return result;
 }
 
-bool device_clock_holds(std::span<const Block> blocks) {
+bool device_times_plausible(std::span<const Block> blocks) {
   for (const auto side : {&Block::a, &Block::b}) {
     std::vector<double> wall_ns;
     std::vector<double> device_ns;
@@ -64,12 +64,12 @@ bool device_clock_holds(std::span<const Block> blocks) {
 // One side of the comparison (a device, driver or build), with its current worker process.
 class Interleaved::Slot {
  public:
-  Slot(Side side, const SideOptions& of, const InterleavedOptions& options,
+  Slot(Side side, const SideOptions& side_options, const InterleavedOptions& options,
        InterruptGuard& interrupts)
       : side_(side),
         options_(options),
-        cache_(cache_name(of, false)),
-        slot_(worker_setup(of, false, cache_, options.start_limit), interrupts) {}
+        cache_(cache_name(side_options, false)),
+        slot_(worker_setup(side_options, false, cache_, options.start_limit), interrupts) {}
 
   [[nodiscard]] const Hello& hello() const { return hello_; }
   [[nodiscard]] const record::Reason& why_closed() const { return slot_.why_closed(); }
@@ -90,19 +90,19 @@ class Interleaved::Slot {
 
   // Sends a request. Throws SideEnded unless the answer is a message of the expected kind.
   template <typename As>
-  auto ask(const Message& message, As as, const OnLoading& on_loading) {
+  auto send_request(const Message& message, As as, const OnLoading& on_loading) {
     if (!open()) throw SideEnded(side_, record::Outcome::failed, why_closed());
-    WorkerLink::Reply reply = slot_.worker().ask(message, options_.limit, on_loading);
+    WorkerLink::Reply reply = slot_.worker().send_request(message, options_.limit, on_loading);
     if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) {
       give_up(record::Outcome::crashed, died->reason);
     }
-    if (const auto* late = std::get_if<WorkerLink::Late>(&reply)) {
-      give_up(record::Outcome::hung, late->reason);
+    if (const auto* timed_out = std::get_if<WorkerLink::TimedOut>(&reply)) {
+      give_up(record::Outcome::hung, timed_out->reason);
     }
     Message& answer = std::get<Message>(reply);
     if (const auto refused = as_refused(answer)) give_up(record::Outcome::failed, refused->reason);
     try {
-      if (auto wanted = as(std::move(answer))) return std::move(*wanted);
+      if (auto expected = as(std::move(answer))) return std::move(*expected);
     } catch (const core::InputError& error) {
       give_up(record::Outcome::failed,
               {.cause = record::Cause::bad_answer, .detail = error.what()});
@@ -118,7 +118,7 @@ class Interleaved::Slot {
   }
 
   Batch batch(const Message& message, const OnLoading& on_loading = {}) {
-    Batch batch = ask(
+    Batch batch = send_request(
         message, [](const Message& answer) { return as_batch(answer); }, on_loading);
     require_measured(batch.outcome, batch.reason);
     return batch;
@@ -155,9 +155,10 @@ class Interleaved::Slot {
 
 Interleaved::Interleaved(InterleavedOptions options, const SideOptions& a, const SideOptions& b)
     : options_(std::move(options)), random_(options_.seed) {
-  if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
+  if (const auto reason = reason_not_to_measure()) throw core::InputError(*reason);
   for (const SideOptions* side : {&a, &b}) {
-    if (const auto reason = forbids_measuring(side->environment)) throw core::InputError(*reason);
+    if (const auto reason = reason_not_to_measure(side->environment))
+      throw core::InputError(*reason);
   }
   slots_[0] = std::make_unique<Slot>(Side::a, a, options_, interrupts_);
   slots_[1] = std::make_unique<Slot>(Side::b, b, options_, interrupts_);
@@ -179,22 +180,22 @@ void Interleaved::hold(const Configuration& configuration,
                        const OnLoading& on_loading) {
   constexpr int warm_up_frames = 3;
   constexpr int most_frames = 1000;
-  constexpr int most_times = 10;
-  for (const Side side : both) {
+  constexpr int most_repetitions = 10;
+  for (const Side side : both_sides) {
     const Hold request{configuration, faults.at(side == Side::a ? 0 : 1)};
     static_cast<void>(slot(side).batch(to_message(request), on_loading));
   }
   double fastest_ns = infinite;
-  for (const Side side : both) {
+  for (const Side side : both_sides) {
     const Batch batch = slot(side).draw(warm_up_frames);
     const bool by_device = clock == SideClock::device && !batch.device_ns.empty();
     fastest_ns =
         std::min(fastest_ns, std::ranges::min(by_device ? batch.device_ns : batch.wall_ns));
   }
   frames_per_batch_ = count_to_fill(options_.least_batch_ns, fastest_ns, most_frames);
-  times_per_block_ =
-      count_to_fill(options_.least_block_ns, 4 * frames_per_batch_ * fastest_ns, most_times);
-  for (const Side side : both) static_cast<void>(slot(side).draw(frames_per_batch_));
+  repetitions_per_block_ =
+      count_to_fill(options_.least_block_ns, 4 * frames_per_batch_ * fastest_ns, most_repetitions);
+  for (const Side side : both_sides) static_cast<void>(slot(side).draw(frames_per_batch_));
 }
 
 Block Interleaved::block() {
@@ -203,11 +204,11 @@ Block Interleaved::block() {
     times->wall_ns.fill(infinite);
     times->device_ns.emplace().fill(infinite);
   }
-  for (int i = 0; i < times_per_block_; ++i) take_batches(block);
+  for (int i = 0; i < repetitions_per_block_; ++i) measure_batches(block);
   return block;
 }
 
-void Interleaved::take_batches(Block& block) {
+void Interleaved::measure_batches(Block& block) {
   const Side first = block.b_first ? Side::b : Side::a;
   const Side second = block.b_first ? Side::a : Side::b;
   std::array<std::size_t, 2> batches{};
@@ -225,12 +226,12 @@ void Interleaved::take_batches(Block& block) {
 }
 
 void Interleaved::release() {
-  for (const Side side : both) slot(side).release();
+  for (const Side side : both_sides) slot(side).release();
 }
 
 void Interleaved::restart() {
   for (const auto& each : slots_) each->close();
-  for (const Side side : both) {
+  for (const Side side : both_sides) {
     if (!slot(side).open()) throw SideEnded(side, record::Outcome::failed, slot(side).why_closed());
   }
 }

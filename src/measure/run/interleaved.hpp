@@ -65,7 +65,7 @@ enum class SideClock : std::uint8_t { wall, device };
 
 // Returns whether the device times of both sides are plausible (see plausible() in
 // measure/protocol/clock.hpp).
-[[nodiscard]] bool device_clock_holds(std::span<const Block> blocks);
+[[nodiscard]] bool device_times_plausible(std::span<const Block> blocks);
 
 struct InterleavedOptions {
   std::string suite;
@@ -103,7 +103,7 @@ class Interleaved {
             const OnLoading& on_loading = {});
   [[nodiscard]] int frames_per_batch() const noexcept { return frames_per_batch_; }
   // Returns how often a block repeats its four batches.
-  [[nodiscard]] int times_per_block() const noexcept { return times_per_block_; }
+  [[nodiscard]] int repetitions_per_block() const noexcept { return repetitions_per_block_; }
   // Measures one block of the prepared configuration.
   [[nodiscard]] Block block();
   void release();
@@ -114,7 +114,7 @@ class Interleaved {
  private:
   class Slot;
   // Measures the four batches once more, and stores each new time in `block` if it is smaller.
-  void take_batches(Block& block);
+  void measure_batches(Block& block);
   [[nodiscard]] Slot& slot(Side side) const { return *slots_.at(side == Side::a ? 0 : 1); }
 
   InterleavedOptions options_;
@@ -122,7 +122,7 @@ class Interleaved {
   InterruptGuard interrupts_;
   std::array<std::unique_ptr<Slot>, 2> slots_;
   int frames_per_batch_ = 1;
-  int times_per_block_ = 1;
+  int repetitions_per_block_ = 1;
 };
 
 }  // namespace triptych::measure

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "measure/run/device_run.hpp"
+#include "measure/run/failure_predictor.hpp"
 #include "measure/run/runner.hpp"
-#include "measure/run/same_failure.hpp"
 #include "measure/system/stopwatch.hpp"
 #include "record/record.hpp"
 
@@ -23,37 +23,39 @@ class Report;
 // exceptions as run_plans().
 class PlanRun {
  public:
-  using Tell = std::function<void(const Progress&)>;
+  using OnProgress = std::function<void(const Progress&)>;
 
   // All arguments must outlive this object.
-  PlanRun(const RunContext& context, const std::vector<std::string>& devices, const Tell& tell);
+  PlanRun(const RunContext& context, const std::vector<std::string>& devices,
+          const OnProgress& on_progress);
 
   // Measures all configurations by the complete protocol, except those for which a resumed run
   // already has a record.
   [[nodiscard]] RunResult measure_all();
 
  private:
-  DeviceRun& on(const std::string& device);
-  SameFailure& failures_of(const std::string& device);
-  void leave(const std::string& device);
-  void stop_if_asked();
+  DeviceRun& device_run(const std::string& device);
+  FailurePredictor& failures_of(const std::string& device);
+  void close(const std::string& device);
+  void throw_if_interrupted();
   [[nodiscard]] std::vector<const Configuration*> pending(const std::string& device,
                                                           Report& report) const;
   void measure(const std::string& device, const Configuration& configuration, Report& report);
-  [[nodiscard]] Done attempt(const std::string& device, const Configuration& configuration,
-                             const std::string& key, Report& report);
-  void share_frames(record::Record& record);
-  [[nodiscard]] bool is_ours(const record::Record& record) const;
-  void count_what_is_there();
+  [[nodiscard]] ConfigurationResult attempt(const std::string& device,
+                                            const Configuration& configuration,
+                                            const std::string& key, Report& report);
+  void reuse_results(record::Record& record);
+  [[nodiscard]] bool belongs_to_plan(const record::Record& record) const;
+  void count_stored_records();
 
   const RunContext& context_;
   const std::vector<std::string>& devices_;
-  const Tell& tell_;
+  const OnProgress& on_progress_;
   RunResult result_;
   double work_ns_ = 0;
   std::map<std::string, std::unique_ptr<DeviceRun>> open_;
   std::map<std::string, const Configuration*> by_key_;  // the plan's configurations
-  std::map<std::string, SameFailure> failures_;         // by device
+  std::map<std::string, FailurePredictor> failures_;    // by device
   std::map<std::pair<std::string, std::string>, record::Record> measured_;  // device, configuration
 };
 

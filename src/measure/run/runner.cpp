@@ -24,8 +24,8 @@ namespace {
 
 // Returns the kinds of work for which clocks and statistics have to be calibrated.
 std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
-  const bool asked = protocol.timed || protocol.statistics;
-  return plan.timed() && asked ? work_kinds(plan) : std::vector<std::string>{};
+  const bool needs_clock = protocol.timed || protocol.statistics;
+  return plan.timed() && needs_clock ? work_kinds(plan) : std::vector<std::string>{};
 }
 
 // Throws InputError if the run that is to be resumed contains a configuration that the plan does
@@ -61,7 +61,7 @@ std::string open_run(const PlannedRun& planned, const std::vector<std::string>& 
   } else {
     store.add_run(run);
   }
-  record::Beginning begun = options.begun;
+  record::RunStart begun = options.begun;
   begun.program = options.program;
   begun.devices = devices;
   if (begun.found.empty()) begun.found = devices;
@@ -75,8 +75,8 @@ std::string open_run(const PlannedRun& planned, const std::vector<std::string>& 
 }
 
 void refuse_bad_options(const RunOptions& options) {
-  if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
-  if (const auto reason = forbids_measuring(options.worker_environment)) {
+  if (const auto reason = reason_not_to_measure()) throw core::InputError(*reason);
+  if (const auto reason = reason_not_to_measure(options.worker_environment)) {
     throw core::InputError(*reason);
   }
   for (const InjectedFault& each : options.faults) check_fault(each.fault);
@@ -86,20 +86,20 @@ void refuse_bad_options(const RunOptions& options) {
 // configurations, and reports the longest remaining time of any part.
 class JointProgress {
  public:
-  explicit JointProgress(const PlanRun::Tell& tell) : tell_(tell) {}
+  explicit JointProgress(const PlanRun::OnProgress& on_progress) : on_progress_(on_progress) {}
 
   void add(std::size_t part, Progress progress) {
     const std::scoped_lock lock(mutex_);
-    if (!tell_) return;
-    if (!progress.loading) of_[part] = {progress.done, progress.total, progress.left};
+    if (!on_progress_) return;
+    if (!progress.loading) parts_[part] = {progress.done, progress.total, progress.left};
     progress.done = progress.total = 0;
     progress.left = {};
-    for (const auto& [number, each] : of_) {
+    for (const auto& [number, each] : parts_) {
       progress.done += each.done;
       progress.total += each.total;
       progress.left = std::max(progress.left, each.left);
     }
-    tell_(progress);
+    on_progress_(progress);
   }
 
  private:
@@ -108,17 +108,17 @@ class JointProgress {
     int total;
     std::chrono::seconds left;
   };
-  const PlanRun::Tell& tell_;
+  const PlanRun::OnProgress& on_progress_;
   std::mutex mutex_;
-  std::map<std::size_t, Part> of_;
+  std::map<std::size_t, Part> parts_;
 };
 
 void add(const RunResult& part, RunResult& sum) {
   sum.measured += part.measured;
-  sum.taken_over += part.taken_over;
+  sum.copied += part.copied;
   sum.skipped += part.skipped;
   sum.failed += part.failed;
-  sum.there_before += part.there_before;
+  sum.already_stored += part.already_stored;
   sum.devices_ns += part.devices_ns;
   sum.overhead_ns += part.overhead_ns;
 }
@@ -132,36 +132,39 @@ struct Part {
 // Measures parts in parallel. This function is used only if nothing is timed, because parallel
 // parts would disturb each other's times. Each part has its own connection to the store. If a part
 // fails, the first error is thrown after all running parts have ended.
-std::vector<RunResult> measure_side_by_side(const std::vector<Part>& parts, std::size_t at_once,
-                                            const PlanRun::Tell& on_progress) {
+std::vector<RunResult> measure_in_parallel(const std::vector<Part>& parts,
+                                           std::size_t most_in_parallel,
+                                           const PlanRun::OnProgress& on_progress) {
   JointProgress joint(on_progress);
   std::vector<RunResult> results(parts.size());
   std::mutex mutex;
   std::exception_ptr failure;
   std::size_t next = 0;
-  const auto lane = [&] {
+  const auto run_parts = [&] {
     for (;;) {
       std::unique_lock lock(mutex);
       if (failure || next == parts.size()) return;
       const std::size_t number = next++;
       lock.unlock();
       const auto& [context, device] = parts[number];
-      const PlanRun::Tell tell = [&](const Progress& progress) { joint.add(number, progress); };
+      const PlanRun::OnProgress report_part = [&](const Progress& progress) {
+        joint.add(number, progress);
+      };
       try {
         record::Store store(context->store.file(), record::Store::Mode::append);
         const RunContext own{context->plan,       context->suite, store,         context->options,
                              context->interrupts, context->run,   context->kinds};
-        results[number] = PlanRun(own, {device}, tell).measure_all();
+        results[number] = PlanRun(own, {device}, report_part).measure_all();
       } catch (...) {
         lock.lock();
         if (!failure) failure = std::current_exception();
       }
     }
   };
-  const std::size_t lanes = std::min(parts.size(), at_once);
+  const std::size_t thread_count = std::min(parts.size(), most_in_parallel);
   {
     std::vector<std::jthread> threads;
-    for (std::size_t i = 0; i < lanes; ++i) threads.emplace_back(lane);
+    for (std::size_t i = 0; i < thread_count; ++i) threads.emplace_back(run_parts);
   }
   if (failure) std::rethrow_exception(failure);
   return results;
@@ -175,13 +178,14 @@ std::size_t processors() {
 // plan. In this way, all parts take about the same time, although neighbouring configurations are
 // similar. Each piece consists of neighbouring configurations, so that they can share their data.
 std::vector<Plan> parts_of(const Plan& plan, std::size_t count) {
-  constexpr std::size_t pieces_each = 8;
+  constexpr std::size_t pieces_per_part = 8;
   constexpr std::size_t longest_piece = 16;
   const std::size_t all = plan.configurations.size();
-  const std::size_t piece = std::clamp<std::size_t>(all / (count * pieces_each), 1, longest_piece);
-  Plan none = plan;
-  none.configurations.clear();
-  std::vector<Plan> parts(count, none);
+  const std::size_t piece =
+      std::clamp<std::size_t>(all / (count * pieces_per_part), 1, longest_piece);
+  Plan empty_part = plan;
+  empty_part.configurations.clear();
+  std::vector<Plan> parts(count, empty_part);
   for (std::size_t i = 0; i < all; ++i) {
     parts[i / piece % count].configurations.push_back(plan.configurations[i]);
   }
@@ -189,16 +193,16 @@ std::vector<Plan> parts_of(const Plan& plan, std::size_t count) {
   return parts;
 }
 
-RunResult measure_devices_side_by_side(const RunContext& context,
-                                       const std::vector<std::string>& devices,
-                                       const PlanRun::Tell& on_progress) {
+RunResult measure_devices_in_parallel(const RunContext& context,
+                                      const std::vector<std::string>& devices,
+                                      const PlanRun::OnProgress& on_progress) {
   const Stopwatch stopwatch;
   const auto jobs = static_cast<std::size_t>(context.options.jobs);
   // In a plan that only compiles, two workers divide the configurations of each device, because the
   // slowest compiler would otherwise run alone at the end. The number does not depend on the
   // machine, because some statistics of radeonsi depend on what the process compiled before.
-  const std::size_t workers_each = context.plan.compiled() ? 2 : 1;
-  const std::vector<Plan> plans = parts_of(context.plan, std::max(jobs, workers_each));
+  const std::size_t workers_per_device = context.plan.compiled() ? 2 : 1;
+  const std::vector<Plan> plans = parts_of(context.plan, std::max(jobs, workers_per_device));
   std::vector<RunContext> contexts;
   contexts.reserve(plans.size());
   for (const Plan& plan : plans) {
@@ -209,9 +213,10 @@ RunResult measure_devices_side_by_side(const RunContext& context,
   for (const std::string& device : devices) {
     for (const RunContext& each : contexts) parts.push_back({&each, device});
   }
-  const std::size_t at_once = jobs > 0 ? jobs : processors();
+  const std::size_t most_in_parallel = jobs > 0 ? jobs : processors();
   RunResult sum;
-  for (const RunResult& part : measure_side_by_side(parts, at_once, on_progress)) add(part, sum);
+  for (const RunResult& part : measure_in_parallel(parts, most_in_parallel, on_progress))
+    add(part, sum);
   sum.run = context.run;
   sum.wall_ns = stopwatch.ns();
   return sum;
@@ -236,9 +241,9 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
                              open_run(each, devices, store),
                              kinds_of(plan, options.protocol)};
     const bool timed = context.plan.timed() && options.protocol.timed;
-    const bool side_by_side = !timed && (devices.size() > 1 || options.jobs > 1 || plan.compiled());
-    results.push_back(side_by_side ? measure_devices_side_by_side(context, devices, on_progress)
-                                   : PlanRun(context, devices, on_progress).measure_all());
+    const bool in_parallel = !timed && (devices.size() > 1 || options.jobs > 1 || plan.compiled());
+    results.push_back(in_parallel ? measure_devices_in_parallel(context, devices, on_progress)
+                                  : PlanRun(context, devices, on_progress).measure_all());
   }
   return results;
 }
@@ -258,7 +263,7 @@ std::array<RunResult, 2> run_sides(const SidesRun& sides, record::Store& store,
     parts.push_back({&contexts.back(), sides.devices[i]});
   }
   if (!sides.plan.timed()) {
-    std::vector<RunResult> results = measure_side_by_side(parts, processors(), on_progress);
+    std::vector<RunResult> results = measure_in_parallel(parts, processors(), on_progress);
     return {std::move(results[0]), std::move(results[1])};
   }
   std::array<RunResult, 2> results;
@@ -274,20 +279,20 @@ std::string describe(const RunResult& result, const std::string& plan, const std
       "triptych itself took {:.1f} %\n",
       plan, result.run, store, result.measured, result.skipped, result.failed, result.wall_ns / 1e9,
       result.devices_ns > 0 ? 100 * result.overhead_ns / result.devices_ns : 0.0);
-  if (result.there_before > 0) {
-    text += fmt::format("{} of these results were already in the store\n", result.there_before);
+  if (result.already_stored > 0) {
+    text += fmt::format("{} of these results were already in the store\n", result.already_stored);
   }
-  if (result.taken_over > 0) {
+  if (result.copied > 0) {
     text += fmt::format(
         "{} of these results reuse the frames of an equivalent configuration; to measure every "
         "configuration, use --measure-every\n",
-        result.taken_over);
+        result.copied);
   }
   return text;
 }
 
-std::vector<InjectedFault> faults_that_hit_nothing(std::span<const PlannedRun> runs,
-                                                   const std::vector<std::string>& devices) {
+std::vector<InjectedFault> unmatched_faults(std::span<const PlannedRun> runs,
+                                            const std::vector<std::string>& devices) {
   const auto hits = [&](const InjectedFault& fault, const PlannedRun& run) {
     return std::ranges::any_of(run.plan.configurations, [&](const Configuration& each) {
       const std::string key = configuration_key(run.suite, each);
@@ -308,8 +313,8 @@ std::vector<InjectedFault> faults_that_hit_nothing(std::span<const PlannedRun> r
 RunResult run_plan(const Plan& plan, const std::vector<std::string>& devices, const Suite& suite,
                    record::Store& store, const RunOptions& options,
                    const std::function<void(const Progress&)>& on_progress) {
-  const PlannedRun alone{plan, suite, options};
-  return std::move(run_plans({&alone, 1}, devices, store, on_progress).front());
+  const PlannedRun planned{plan, suite, options};
+  return std::move(run_plans({&planned, 1}, devices, store, on_progress).front());
 }
 
 }  // namespace triptych::measure

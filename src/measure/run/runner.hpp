@@ -26,12 +26,12 @@ namespace triptych::measure {
 struct RunOptions {
   Protocol protocol;
   // The time limit of one configuration. A worker that exceeds it is killed and replaced.
-  std::chrono::seconds limit = record::standard_limit;
+  std::chrono::seconds limit = record::default_limit;
   std::chrono::seconds start_limit{60};  // time limit for opening a device and calibrating
   bool resume = false;                   // continues the plan's latest run and keeps its records
   // The device and the configuration of each record that is to be measured again although a resumed
   // run already contains it.
-  std::set<std::pair<std::string, std::string>> again = {};
+  std::set<std::pair<std::string, std::string>> remeasure = {};
   std::vector<InjectedFault> faults;
   // The maximum number of workers that run at the same time if nothing is timed. One device may
   // have several workers. 0: one worker for each device (two in a plan that only compiles), but not
@@ -41,7 +41,7 @@ struct RunOptions {
   std::vector<std::string> worker_environment = {};  // see SideOptions::environment
   // The devices that the command requested, the devices that it found, and the devices that it
   // measures.
-  record::Beginning begun = {};
+  record::RunStart begun = {};
   // The version of the program, including its commit, which is stored in the run. If this is empty,
   // only the version number is stored.
   std::string program = {};
@@ -64,10 +64,10 @@ struct RunResult {
   int measured = 0;
   // The number of measured records whose results were copied from an equivalent configuration
   // (measure/contract/equivalents.hpp).
-  int taken_over = 0;
+  int copied = 0;
   int skipped = 0;
-  int failed = 0;        // number of records that failed, crashed, hung or lost the device
-  int there_before = 0;  // number of records that the resumed run already contained
+  int failed = 0;          // number of records that failed, crashed, hung or lost the device
+  int already_stored = 0;  // number of records that the resumed run already contained
   double wall_ns = 0;
   // The sum of the wall-clock times of all devices. It exceeds wall_ns if devices were measured in
   // parallel.
@@ -105,8 +105,8 @@ struct PlannedRun {
 // Returns the injected faults that do not apply to any of the configurations on these devices. They
 // must be reported, because otherwise a user who injects a fault and sees a pass would think that
 // the fault was not detected.
-[[nodiscard]] std::vector<InjectedFault> faults_that_hit_nothing(
-    std::span<const PlannedRun> runs, const std::vector<std::string>& devices);
+[[nodiscard]] std::vector<InjectedFault> unmatched_faults(std::span<const PlannedRun> runs,
+                                                          const std::vector<std::string>& devices);
 
 // A plan that is measured on two sides: on two devices, or on one device with different driver
 // settings or builds. Each side is written to its own run.

@@ -17,7 +17,7 @@ Plan plan_for(const Suite& suite) {
 }
 
 RunOptions untimed(RunOptions options) {
-  if (const auto reason = forbids_measuring()) throw core::InputError(*reason);
+  if (const auto reason = reason_not_to_measure()) throw core::InputError(*reason);
   for (const InjectedFault& each : options.faults) check_fault(each.fault);
   options.protocol.timed = false;
   options.protocol.statistics = false;
@@ -44,11 +44,11 @@ SingleFrames::SingleFrames(const Suite& suite, std::string device, record::Store
 
 record::Record SingleFrames::draw(const Configuration& configuration) {
   const std::string key = configuration_key(suite_, configuration);
-  const Done done = device_.perform(configuration, key, {});
-  if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
-  if (!done.exr.empty()) store_.add_image(done.record.image, done.exr);
-  store_.add_record(done.record);
-  return done.record;
+  const ConfigurationResult result = device_.measure(configuration, key, {});
+  if (const auto signal = interrupts_.received_signal()) throw Interrupted(*signal);
+  if (!result.exr.empty()) store_.add_image(result.record.image, result.exr);
+  store_.add_record(result.record);
+  return result.record;
 }
 
 record::Device SingleFrames::device() const {

@@ -20,18 +20,17 @@ constexpr int most_draws = 128;
 
 class SpriteDraws {
  public:
-  SpriteDraws(Device& device, const Work& work, ExpectsSprites& expects, const Described& described,
-              PixelPlace place)
+  SpriteDraws(Device& device, const Work& work, SpriteReference& reference,
+              const ReferenceInput& input, PixelPlace place)
       : device_(device),
         work_(work),
-        expects_(expects),
-        described_(described),
+        reference_(reference),
+        input_(input),
         place_(place),
         all_(std::get<ParticleWork>(work.scene).scene.particles) {}
 
-  [[nodiscard]] Particles near() const {
-    return expects_.particles_near(described_.configuration, described_.precision, place_.x,
-                                   place_.y);
+  [[nodiscard]] Particles nearby() const {
+    return reference_.particles_near(input_.configuration, input_.precision, place_.x, place_.y);
   }
 
   [[nodiscard]] Particles all() const {
@@ -43,8 +42,8 @@ class SpriteDraws {
   [[nodiscard]] std::uint32_t id_of(std::uint32_t particle) const { return all_->ids[particle]; }
 
   [[nodiscard]] accuracy::ExpectedSurface expected(const Particles& particles) const {
-    return expects_.expected_surface(described_.configuration, described_.precision, particles,
-                                     place_.x, place_.y);
+    return reference_.expected_surface(input_.configuration, input_.precision, particles, place_.x,
+                                       place_.y);
   }
 
   // Returns the pixel after the device has drawn only these particles.
@@ -64,8 +63,8 @@ class SpriteDraws {
  private:
   Device& device_;
   Work work_;
-  ExpectsSprites& expects_;
-  Described described_;
+  SpriteReference& reference_;
+  ReferenceInput input_;
   PixelPlace place_;
   std::shared_ptr<const scene::ParticleSet> all_;
 };
@@ -82,15 +81,16 @@ void add_row(accuracy::SpriteHistory& history, SpriteDraws& draws, std::uint32_t
   history.rows.push_back(row);
 }
 
-void find_fewest(accuracy::SpriteHistory& history, SpriteDraws& draws, const Particles& near) {
+void find_smallest_set(accuracy::SpriteHistory& history, SpriteDraws& draws,
+                       const Particles& nearby) {
   const auto is_wrong = [&](const Particles& particles) {
     return draws.difference(particles) != SurfaceDifference::none;
   };
-  const Particles begin = is_wrong(near) ? near : draws.all();
-  accuracy::SmallestSet fewest = accuracy::smallest_set_of(begin, is_wrong, most_draws);
-  history.smallest_set_differs = draws.difference(fewest.particles);
-  history.stopped_early = fewest.stopped_early;
-  for (const std::uint32_t each : fewest.particles)
+  const Particles begin = is_wrong(nearby) ? nearby : draws.all();
+  accuracy::SmallestSet smallest = accuracy::smallest_set_of(begin, is_wrong, most_draws);
+  history.smallest_set_differs = draws.difference(smallest.particles);
+  history.stopped_early = smallest.stopped_early;
+  for (const std::uint32_t each : smallest.particles)
     history.smallest_set.push_back(draws.id_of(each));
 }
 
@@ -107,21 +107,21 @@ accuracy::DrawnSurface shown_at(const core::Image& image, PixelPlace place) {
 }
 
 accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& suite,
-                                       const Described& described, PixelPlace place,
+                                       const ReferenceInput& input, PixelPlace place,
                                        const accuracy::DrawnSurface& whole) {
-  auto* const expects = dynamic_cast<ExpectsSprites*>(&suite);
-  if (expects == nullptr) throw core::NotSupported(not_traced);
-  SpriteDraws draws(device, work, *expects, described, place);
-  const Particles near = draws.near();
+  auto* const reference = dynamic_cast<SpriteReference*>(&suite);
+  if (reference == nullptr) throw core::NotSupported(pixel_history_unsupported);
+  SpriteDraws draws(device, work, *reference, input, place);
+  const Particles nearby = draws.nearby();
   accuracy::SpriteHistory history;
-  for (const std::uint32_t particle : near) {
+  for (const std::uint32_t particle : nearby) {
     if (history.rows.size() == most_rows) break;
     add_row(history, draws, particle);
   }
-  history.untested = near.size() - history.rows.size();
+  history.untested = nearby.size() - history.rows.size();
   const bool wrong =
       accuracy::compare(draws.expected(draws.all()), whole) != SurfaceDifference::none;
-  if (wrong && !history.first) find_fewest(history, draws, near);
+  if (wrong && !history.first) find_smallest_set(history, draws, nearby);
   return history;
 }
 

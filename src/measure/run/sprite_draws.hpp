@@ -13,7 +13,7 @@
 namespace triptych::measure {
 
 // The scene and the device properties for which the reference renderer computes results.
-struct Described {
+struct ReferenceInput {
   const Configuration& configuration;
   const std::map<std::string, double>& precision;  // Record::precision
 };
@@ -23,10 +23,10 @@ struct Described {
 // Returns the history of the pixel. `whole` is the device's result for this pixel if all particles
 // are drawn. If that result is wrong although each sphere alone is drawn correctly, the function
 // searches for a small set of particles with which the pixel is still wrong. Throws NotSupported if
-// the suite does not implement ExpectsSprites. Also throws the exceptions of the device's
+// the suite does not implement SpriteReference. Also throws the exceptions of the device's
 // functions.
 [[nodiscard]] accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& suite,
-                                                     const Described& described, PixelPlace place,
+                                                     const ReferenceInput& input, PixelPlace place,
                                                      const accuracy::DrawnSurface& whole);
 
 }  // namespace triptych::measure

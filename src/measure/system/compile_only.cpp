@@ -38,7 +38,7 @@ struct Chip {
 };
 constexpr std::array<Chip, 2> chips{{{"turing", "0x164"}, {"ampere", "0x172"}}};
 
-constexpr std::array<std::string_view, 9> usual{
+constexpr std::array<std::string_view, 9> default_devices{
     "vulkan:radv-polaris10", "vulkan:radv-vega10",  "vulkan:radv-navi21",
     "vulkan:radv-navi31",    "vulkan:radv-gfx1201", "vulkan:nvk-turing",
     "vulkan:nvk-ampere",     "gl:radeonsi-navi31",  "opencl:rusticl-navi31"};
@@ -131,7 +131,7 @@ std::string find_library(std::string_view name, std::span<const std::string> ove
 // Returns whether this RADV driver reads RADV_FORCE_FAMILY, in which case it needs no stub. Newer
 // releases, such as Mesa 26.1, do not read it. They contain a message that the variable has been
 // removed, by which this function recognizes them.
-bool forces_family(const std::string& icd, std::span<const std::string> overrides) {
+bool supports_force_family(const std::string& icd, std::span<const std::string> overrides) {
   try {
     const std::string library =
         core::Json::parse(core::read_text(icd)).at("ICD").at("library_path");
@@ -181,8 +181,8 @@ std::optional<CompileOnly> compile_only(std::string_view device_id) {
   return CompileOnly{std::string(driver->name), std::string(family)};
 }
 
-std::vector<std::string> usual_compile_only_devices() {
-  return {usual.begin(), usual.end()};
+std::vector<std::string> default_compile_only_devices() {
+  return {default_devices.begin(), default_devices.end()};
 }
 
 std::vector<std::string> compile_only_environment(std::string_view device_id,
@@ -205,7 +205,7 @@ std::vector<std::string> compile_only_environment(std::string_view device_id,
     environment.push_back("VK_DRIVER_FILES=" + icd);
     environment.push_back("VK_ICD_FILENAMES=" + icd);  // read by loaders before version 1.3.207
   }
-  if (driver.name == "radv" && forces_family(icd, overrides)) {
+  if (driver.name == "radv" && supports_force_family(icd, overrides)) {
     environment.push_back("RADV_FORCE_FAMILY=" + device->family);
   } else {
     add_stub(driver, device->family, overrides, environment);

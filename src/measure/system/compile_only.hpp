@@ -27,7 +27,7 @@ struct CompileOnly {
 
 // Returns the compile-only devices that the gate uses by default. Their GPU families represent the
 // most common GPUs.
-[[nodiscard]] std::vector<std::string> usual_compile_only_devices();
+[[nodiscard]] std::vector<std::string> default_compile_only_devices();
 
 // Returns the variables ("NAME=VALUE") that a worker needs for this device. The result is empty
 // unless the device is a compile-only device. `overrides` contains the variables that are set for

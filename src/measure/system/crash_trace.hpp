@@ -7,6 +7,6 @@ namespace triptych::measure {
 // (SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT) ends the process. The handler for SIGUSR2 also writes
 // the call stack but does not end the process. The supervisor sends SIGUSR2 to find out where a
 // process hangs. If a driver installs its own handlers, they replace these handlers.
-void write_stack_of_crashes();
+void install_stack_trace_handlers();
 
 }  // namespace triptych::measure

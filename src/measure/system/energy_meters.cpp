@@ -49,9 +49,9 @@ class EnergyMeters::Span {
  public:
   // Must be called between frames. `microjoules` is the value of the meter after `frames` frames
   // and `ns` nanoseconds, and `range` is Meter::range.
-  void see(std::uint64_t microjoules, int frames, double ns, std::uint64_t range) {
+  void update(std::uint64_t microjoules, int frames, double ns, std::uint64_t range) {
     if (seen_ && microjoules != last_) {
-      if (renewed_) {
+      if (updated_) {
         if (microjoules > last_)
           sum_ += microjoules - last_;
         else if (range > last_)
@@ -61,23 +61,23 @@ class EnergyMeters::Span {
       } else {
         first_frame_ = frames;
         first_ns_ = ns;
-        renewed_ = true;
+        updated_ = true;
       }
     }
     seen_ = true;
     last_ = microjoules;
   }
-  [[nodiscard]] bool is_enough() const {
+  [[nodiscard]] bool is_long_enough() const {
     constexpr double least_ns = 100e6;
     return frames_ > 0 && ns_ >= least_ns;
   }
-  [[nodiscard]] std::uint64_t of_a_frame() const {
+  [[nodiscard]] std::uint64_t energy_per_frame() const {
     return static_cast<std::uint64_t>(
         std::llround(static_cast<double>(sum_) / static_cast<double>(frames_)));
   }
 
  private:
-  bool seen_ = false, renewed_ = false;
+  bool seen_ = false, updated_ = false;
   std::uint64_t last_ = 0, sum_ = 0;
   int first_frame_ = 0, frames_ = 0;
   double first_ns_ = 0, ns_ = 0;
@@ -160,28 +160,28 @@ void EnergyMeters::find_nvidia_cards(const fs::path& nvml) {
   }
 }
 
-record::Counts EnergyMeters::of_a_frame(const std::function<void()>& draw) const {
+record::Counts EnergyMeters::energy_per_frame(const std::function<void()>& draw) const {
   constexpr double most_ns = 1e9;
   constexpr int least_frames = 3;
   std::vector<Span> spans(meters_.size());
   const Stopwatch whole;
-  const auto see = [&](int frames) {
+  const auto update = [&](int frames) {
     for (std::size_t i = 0; i < spans.size(); ++i) {
-      const auto told = meters_[i].microjoules();
-      if (told) spans[i].see(*told, frames, whole.ns(), meters_[i].range);
+      const auto value = meters_[i].microjoules();
+      if (value) spans[i].update(*value, frames, whole.ns(), meters_[i].range);
     }
-    return std::ranges::all_of(spans, &Span::is_enough);
+    return std::ranges::all_of(spans, &Span::is_long_enough);
   };
   int frames = 0;
-  while (!see(frames) && (frames < least_frames || whole.ns() < most_ns)) {
+  while (!update(frames) && (frames < least_frames || whole.ns() < most_ns)) {
     draw();
     ++frames;
   }
-  record::Counts told;
+  record::Counts result;
   for (std::size_t i = 0; i < spans.size(); ++i) {
-    if (spans[i].is_enough()) told[meters_[i].name] = spans[i].of_a_frame();
+    if (spans[i].is_long_enough()) result[meters_[i].name] = spans[i].energy_per_frame();
   }
-  return told;
+  return result;
 }
 
 }  // namespace triptych::measure

@@ -32,7 +32,7 @@ class EnergyMeters {
   // updates that are at least a tenth of a second apart. Drawing ends when every meter has had two
   // such updates, but at the latest after one second or three frames, whichever is longer. A meter
   // without two such updates is absent from the result. If there are no meters, nothing is drawn.
-  [[nodiscard]] record::Counts of_a_frame(const std::function<void()>& draw) const;
+  [[nodiscard]] record::Counts energy_per_frame(const std::function<void()>& draw) const;
 
  private:
   struct Meter {

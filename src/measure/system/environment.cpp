@@ -82,13 +82,13 @@ std::string with_cache(std::string entry, const CacheFolder& cache) {
   return entry;
 }
 
-std::string_view name_in(std::string_view entry) {
+std::string_view variable_name(std::string_view entry) {
   return entry.substr(0, entry.find('='));
 }
 
 // Returns whether the text begins with NAME=, which means that a comma before it ends the previous
 // value.
-bool begins_a_variable(std::string_view text) {
+bool starts_with_variable(std::string_view text) {
   const auto letter = [](char c) {
     return std::isalpha(static_cast<unsigned char>(c)) || c == '_';
   };
@@ -105,11 +105,11 @@ std::span<const EnvironmentDefault> environment_defaults() {
 }
 
 CacheFolder::CacheFolder(std::string_view device_id) {
-  constexpr int most_at_once = 64;
+  constexpr int most_folders = 64;
   std::string reasons;
   for (const auto& [root, name] : cache_places()) {
     try {
-      for (int n = 0; n < most_at_once; ++n) {
+      for (int n = 0; n < most_folders; ++n) {
         const std::array names{name, fmt::format("{}-{}", as_file_name(device_id), n)};
         const core::PrivateFolder folder(root, names);
         path_ = folder.path();
@@ -117,7 +117,7 @@ CacheFolder::CacheFolder(std::string_view device_id) {
         if (lock_) return;
       }
       reasons += fmt::format("; {}: all {} cache folders are in use by other workers",
-                             root.string(), most_at_once);
+                             root.string(), most_folders);
     } catch (const core::IoError& error) {
       reasons += fmt::format("; {}", error.what());
     }
@@ -145,17 +145,17 @@ std::vector<std::string> worker_environment(std::string_view device_id, const Ca
   std::vector<std::string> result;
   for (const std::string& entry : overrides) result.push_back(with_cache(entry, cache));
   const auto overridden = [&](std::string_view name) {
-    return std::ranges::any_of(overrides,
-                               [&](const std::string& entry) { return name_in(entry) == name; });
+    return std::ranges::any_of(
+        overrides, [&](const std::string& entry) { return variable_name(entry) == name; });
   };
   for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
     const std::string_view text(*entry);
-    if (text.starts_with("BENCHMARK_") || overridden(name_in(text))) continue;
+    if (text.starts_with("BENCHMARK_") || overridden(variable_name(text))) continue;
     result.emplace_back(text);
   }
   for (const EnvironmentDefault& each : defaults) {
     const bool set = std::ranges::any_of(
-        result, [&](const std::string& entry) { return name_in(entry) == each.name; });
+        result, [&](const std::string& entry) { return variable_name(entry) == each.name; });
     if (set || !device_id.starts_with(each.api)) continue;
     result.push_back(with_cache(fmt::format("{}={}", each.name, each.value), cache));
   }
@@ -165,11 +165,11 @@ std::vector<std::string> worker_environment(std::string_view device_id, const Ca
 std::vector<std::string> parse_environment(std::string_view text, const std::string& where) {
   std::vector<std::string> environment;
   for (std::string_view rest = text;;) {
-    if (!begins_a_variable(rest)) {
+    if (!starts_with_variable(rest)) {
       throw core::InputError(fmt::format("{}: expected NAME=VALUE, found '{}'", where, rest));
     }
     std::size_t end = rest.find(',');
-    while (end != std::string_view::npos && !begins_a_variable(rest.substr(end + 1))) {
+    while (end != std::string_view::npos && !starts_with_variable(rest.substr(end + 1))) {
       end = rest.find(',', end + 1);
     }
     environment.emplace_back(rest.substr(0, end));
@@ -178,15 +178,15 @@ std::vector<std::string> parse_environment(std::string_view text, const std::str
   }
 }
 
-std::optional<std::string> forbids_measuring() {
+std::optional<std::string> reason_not_to_measure() {
   if (std::getenv("LP_PERF") == nullptr) return std::nullopt;
   const std::array<std::string, 1> set{"LP_PERF=" + variable("LP_PERF")};
-  return forbids_measuring(set);
+  return reason_not_to_measure(set);
 }
 
-std::optional<std::string> forbids_measuring(std::span<const std::string> environment) {
+std::optional<std::string> reason_not_to_measure(std::span<const std::string> environment) {
   for (const std::string& entry : environment) {
-    if (name_in(entry) != "LP_PERF") continue;
+    if (variable_name(entry) != "LP_PERF") continue;
     return fmt::format(
         "{} is set, which makes llvmpipe and lavapipe skip work, so that times and images would be "
         "wrong; unset it",

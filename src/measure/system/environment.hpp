@@ -60,9 +60,9 @@ class CacheFolder {
 // Returns the reason why the environment variables of this process make measuring impossible, or
 // nullopt if there is no such reason. For example, LP_PERF makes llvmpipe skip work, so that times
 // and images would be wrong.
-[[nodiscard]] std::optional<std::string> forbids_measuring();
+[[nodiscard]] std::optional<std::string> reason_not_to_measure();
 // Like the overload above, but for a worker whose environment is given as "NAME=VALUE" strings.
-[[nodiscard]] std::optional<std::string> forbids_measuring(
+[[nodiscard]] std::optional<std::string> reason_not_to_measure(
     std::span<const std::string> environment);
 
 }  // namespace triptych::measure

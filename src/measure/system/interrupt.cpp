@@ -10,11 +10,11 @@
 namespace triptych::measure {
 
 InterruptGuard::InterruptGuard() {
-  sigset_t ours;
-  sigemptyset(&ours);
-  for (const int each : {SIGINT, SIGTERM, SIGPIPE}) sigaddset(&ours, each);
-  signals_ = FileDescriptor(::signalfd(-1, &ours, SFD_CLOEXEC | SFD_NONBLOCK));
-  if (!signals_ || ::pthread_sigmask(SIG_BLOCK, &ours, &before_) != 0) {
+  sigset_t blocked;
+  sigemptyset(&blocked);
+  for (const int each : {SIGINT, SIGTERM, SIGPIPE}) sigaddset(&blocked, each);
+  signals_ = FileDescriptor(::signalfd(-1, &blocked, SFD_CLOEXEC | SFD_NONBLOCK));
+  if (!signals_ || ::pthread_sigmask(SIG_BLOCK, &blocked, &before_) != 0) {
     throw core::IoError("cannot set up interrupt handling");
   }
 }
@@ -22,13 +22,13 @@ InterruptGuard::InterruptGuard() {
 InterruptGuard::~InterruptGuard() {
   read_signals();
   ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-  if (signal_ != 0 && !told_) std::raise(signal_);
+  if (signal_ != 0 && !reported_) std::raise(signal_);
 }
 
-std::optional<int> InterruptGuard::take() {
+std::optional<int> InterruptGuard::received_signal() {
   read_signals();
   if (signal_ == 0) return std::nullopt;
-  told_ = true;
+  reported_ = true;
   return signal_;
 }
 

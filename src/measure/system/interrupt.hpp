@@ -40,7 +40,7 @@ class InterruptGuard {
   [[nodiscard]] int fd() const noexcept { return signals_.get(); }
   // Returns SIGINT or SIGTERM if it has arrived; ignores SIGPIPE. Once a signal has arrived, all
   // further calls on all threads return it.
-  [[nodiscard]] std::optional<int> take();
+  [[nodiscard]] std::optional<int> received_signal();
 
  private:
   void read_signals();
@@ -48,7 +48,7 @@ class InterruptGuard {
   sigset_t before_{};
   FileDescriptor signals_;
   std::atomic<int> signal_{0};
-  std::atomic<bool> told_{false};
+  std::atomic<bool> reported_{false};
 };
 
 }  // namespace triptych::measure

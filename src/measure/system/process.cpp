@@ -31,8 +31,8 @@ struct Pipe {
 // Moves one end of a pipe to a descriptor number above all numbers that the child uses, so that no
 // dup2() in the child overwrites the source of another dup2().
 FileDescriptor raised(FileDescriptor low) {
-  constexpr int above_childs_numbers = 16;
-  FileDescriptor high(::fcntl(low.get(), F_DUPFD_CLOEXEC, above_childs_numbers));
+  constexpr int above_child_fds = 16;
+  FileDescriptor high(::fcntl(low.get(), F_DUPFD_CLOEXEC, above_child_fds));
   if (!high) fail("cannot duplicate one end of a pipe", errno);
   return high;
 }
@@ -68,8 +68,8 @@ class FileActions {
   void empty_input() {
     check(::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0));
   }
-  void give(const FileDescriptor& ours, int theirs) {
-    check(::posix_spawn_file_actions_adddup2(&actions_, ours.get(), theirs));
+  void pass(const FileDescriptor& fd, int child_fd) {
+    check(::posix_spawn_file_actions_adddup2(&actions_, fd.get(), child_fd));
   }
   void close_from(int first) {
     check(::posix_spawn_file_actions_addclosefrom_np(&actions_, first));
@@ -153,10 +153,10 @@ Process::Process(const std::vector<std::string>& command,
   Pipe log = make_pipe();
   FileActions files;
   files.empty_input();
-  files.give(log.write, STDOUT_FILENO);
-  files.give(log.write, STDERR_FILENO);
-  files.give(request.read, child_request_fd);
-  files.give(answer.write, child_answer_fd);
+  files.pass(log.write, STDOUT_FILENO);
+  files.pass(log.write, STDERR_FILENO);
+  files.pass(request.read, child_request_fd);
+  files.pass(answer.write, child_answer_fd);
   files.close_from(child_answer_fd + 1);
   const Attributes attributes;
   const std::vector<char*> arguments = pointers(command);
@@ -189,9 +189,9 @@ Process::~Process() {
   kill();
   // A process that is blocked inside a kernel driver cannot be reaped even after SIGKILL. This
   // program must not wait for it forever.
-  constexpr std::chrono::seconds patience{10};
+  constexpr std::chrono::seconds time_limit{10};
   try {
-    if (wait(patience)) return;
+    if (wait(time_limit)) return;
   } catch (const core::Error&) {
     // If waiting for a child fails, there is nothing left to do.
   }
@@ -228,11 +228,11 @@ std::optional<Exit> Process::wait(std::chrono::milliseconds limit) {
 
 std::optional<std::string> output_of(const std::vector<std::string>& command,
                                      std::vector<std::string> variables) {
-  constexpr std::chrono::seconds patience{20};
+  constexpr std::chrono::seconds time_limit{20};
   try {
     for (char** entry = environ; *entry != nullptr; ++entry) variables.emplace_back(*entry);
     Process process(command, variables);
-    const std::optional<Exit> exit = process.wait(patience);
+    const std::optional<Exit> exit = process.wait(time_limit);
     if (!exit || exit->code != 0 || exit->signal != 0) return std::nullopt;
     std::string text(4096, '\0');
     const ssize_t got = ::read(process.log_fd(), text.data(), text.size());

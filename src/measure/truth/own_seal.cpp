@@ -42,14 +42,14 @@ std::string read_key(const core::PrivateFolder& folder) {
 void make_key(const core::PrivateFolder& folder) {
   std::string key(key_bytes, '\0');
   if (::getrandom(key.data(), key.size(), 0) != static_cast<ssize_t>(key.size())) return;
-  const std::string aside = fmt::format("key-{}", ::getpid());
-  const FileDescriptor file(::openat(folder.fd(), aside.c_str(),
+  const std::string temporary = fmt::format("key-{}", ::getpid());
+  const FileDescriptor file(::openat(folder.fd(), temporary.c_str(),
                                      O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
   if (!file) return;
   const bool written =
       ::write(file.get(), key.data(), key.size()) == static_cast<ssize_t>(key.size());
-  if (written) static_cast<void>(::linkat(folder.fd(), aside.c_str(), folder.fd(), "key", 0));
-  static_cast<void>(::unlinkat(folder.fd(), aside.c_str(), 0));
+  if (written) static_cast<void>(::linkat(folder.fd(), temporary.c_str(), folder.fd(), "key", 0));
+  static_cast<void>(::unlinkat(folder.fd(), temporary.c_str(), 0));
 }
 
 std::string own_key() {

@@ -27,8 +27,8 @@ std::string memory_key(const record::Record& record) {
 
 // Returns the value for the key. If it does not exist, calls `make` to create it.
 template <typename Value, typename Make>
-const Value& known_or_made(std::map<std::string, Value>& known, const std::string& key,
-                           const Make& make) {
+const Value& find_or_insert(std::map<std::string, Value>& known, const std::string& key,
+                            const Make& make) {
   const auto found = known.find(key);
   return found != known.end() ? found->second : known.emplace(key, make()).first->second;
 }
@@ -36,7 +36,7 @@ const Value& known_or_made(std::map<std::string, Value>& known, const std::strin
 }  // namespace
 
 const accuracy::TruthPair& Truths::of(const record::Record& record) {
-  return known_or_made(known_, memory_key(record), [&] { return find_or_render(record); });
+  return find_or_insert(known_, memory_key(record), [&] { return find_or_render(record); });
 }
 
 const std::map<std::string, double>& Truths::open_counts_of(const record::Record& record) {
@@ -45,7 +45,7 @@ const std::map<std::string, double>& Truths::open_counts_of(const record::Record
     const auto found = record.factors.find(factor);
     if (found != record.factors.end()) key += " " + found->second;
   }
-  return known_or_made(open_counts_, key, [&] {
+  return find_or_insert(open_counts_, key, [&] {
     return suite_(record.suite).open_counts(record.factors, record.precision);
   });
 }
@@ -53,9 +53,9 @@ const std::map<std::string, double>& Truths::open_counts_of(const record::Record
 std::string Truths::data_hash_of(const record::Record& record) {
   std::string key = record.suite;
   for (const auto& [factor, level] : record.factors) {
-    if (record::decides_data(factor)) key += " " + factor + "=" + level;
+    if (record::determines_data(factor)) key += " " + factor + "=" + level;
   }
-  return known_or_made(data_hashes_, key, [&]() -> std::string {
+  return find_or_insert(data_hashes_, key, [&]() -> std::string {
     try {
       return suite_(record.suite).data_hash(record.factors);
     } catch (const core::Error&) {
@@ -64,8 +64,8 @@ std::string Truths::data_hash_of(const record::Record& record) {
   });
 }
 
-accuracy::TruthPair Truths::kept(const std::string& scene, const std::string& version,
-                                 const std::function<accuracy::TruthPair()>& render) {
+accuracy::TruthPair Truths::load_or_render(const std::string& scene, const std::string& version,
+                                           const std::function<accuracy::TruthPair()>& render) {
   const auto stored = store_.truth(scene, version);
   if (stored && !stored->own_seal.empty() && own_seal(*stored) == stored->own_seal) {
     const std::string name =
@@ -90,14 +90,14 @@ accuracy::TruthPair Truths::kept(const std::string& scene, const std::string& ve
 
 accuracy::TruthPair Truths::find_or_render(const record::Record& record) {
   SuiteWithTruth& suite = suite_(record.suite);
-  return kept(record.scene, suite.truth_key(record.factors, record.precision),
-              [&] { return suite.truth(record.factors, record.precision); });
+  return load_or_render(record.scene, suite.truth_key(record.factors, record.precision),
+                        [&] { return suite.truth(record.factors, record.precision); });
 }
 
 const accuracy::LimitImage* Truths::limit_of(const record::Record& record) {
   const std::string key = suite_(record.suite).limit_key(record.factors);
   if (key.empty()) return nullptr;
-  return &known_or_made(limits_, key, [&] { return find_or_render_limit(record, key); });
+  return &find_or_insert(limits_, key, [&] { return find_or_render_limit(record, key); });
 }
 
 accuracy::LimitImage Truths::find_or_render_limit(const record::Record& record,
@@ -105,10 +105,11 @@ accuracy::LimitImage Truths::find_or_render_limit(const record::Record& record,
   SuiteWithTruth& suite = suite_(record.suite);
   // A limit (the image to which a scene converges as its sampling is refined) is stored like a
   // reference image, with a special scene name and with its uncertainty as the bound.
-  accuracy::TruthPair pair = kept("limit of " + record.suite, key, [&]() -> accuracy::TruthPair {
-    Limit limit = suite.limit(record.factors);
-    return {std::move(limit.image), std::move(limit.uncertainty)};
-  });
+  accuracy::TruthPair pair =
+      load_or_render("limit of " + record.suite, key, [&]() -> accuracy::TruthPair {
+        Limit limit = suite.limit(record.factors);
+        return {std::move(limit.image), std::move(limit.uncertainty)};
+      });
   return {.key = key,
           .image = std::move(pair.truth),
           .uncertainty = std::move(pair.bound),

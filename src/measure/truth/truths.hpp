@@ -49,8 +49,9 @@ class Truths {
                                                           const std::string& key);
   // Returns an image and its error bound, which are stored for this scene and version. If there are
   // none, or if this user did not render them (own_seal.hpp), calls `render` and stores the result.
-  [[nodiscard]] accuracy::TruthPair kept(const std::string& scene, const std::string& version,
-                                         const std::function<accuracy::TruthPair()>& render);
+  [[nodiscard]] accuracy::TruthPair load_or_render(
+      const std::string& scene, const std::string& version,
+      const std::function<accuracy::TruthPair()>& render);
 
   FindSuiteWithTruth suite_;
   record::Store& store_;

@@ -49,17 +49,17 @@ class Prober {
       : device_(std::move(device)), limit_(limit), cache_(device_) {}
 
   // Returns the answer, or the reason why the process did not answer.
-  std::variant<nlohmann::json, record::Reason> ask(const nlohmann::json& request) {
+  std::variant<nlohmann::json, record::Reason> send_request(const nlohmann::json& request) {
     if (!link_) {
       link_ = std::make_unique<WorkerLink>(
           std::vector<std::string>{own_program(), "probe-features", device_},
           worker_environment(device_, cache_, {}), interrupts_);
     }
-    WorkerLink::Reply reply = link_->ask({.json = request, .binary = {}}, limit_);
+    WorkerLink::Reply reply = link_->send_request({.json = request, .binary = {}}, limit_);
     if (auto* answer = std::get_if<Message>(&reply)) return std::move(answer->json);
     link_.reset();
     if (auto* died = std::get_if<WorkerLink::Died>(&reply)) return std::move(died->reason);
-    return std::move(std::get<WorkerLink::Late>(reply).reason);
+    return std::move(std::get<WorkerLink::TimedOut>(reply).reason);
   }
 
   void finish() {
@@ -74,7 +74,7 @@ class Prober {
   std::unique_ptr<WorkerLink> link_;
 };
 
-FeatureRow ended_row(std::string name, record::Reason reason) {
+FeatureRow failed_row(std::string name, record::Reason reason) {
   return {.name = std::move(name),
           .probed = {.verdict = FeatureVerdict::wrong, .size = {}, .detail = {}},
           .ended = std::move(reason)};
@@ -92,18 +92,18 @@ ProbedFeature judged_feature(std::uint64_t right, std::uint64_t expected, std::s
 std::vector<FeatureRow> probe_features(const std::string& device, const std::string& only,
                                        std::chrono::seconds limit) {
   Prober prober(device, limit);
-  auto listed = prober.ask({{"probe", ""}});
+  auto listed = prober.send_request({{"probe", ""}});
   if (auto* reason = std::get_if<record::Reason>(&listed)) {
-    return {ended_row("", std::move(*reason))};
+    return {failed_row("", std::move(*reason))};
   }
   std::vector<FeatureRow> rows;
   const nlohmann::json names = std::get<nlohmann::json>(listed).at("names");
   for (const nlohmann::json& each : names) {
     const std::string name = each;
     if (!only.empty() && name != only) continue;
-    auto answer = prober.ask({{"probe", name}});
+    auto answer = prober.send_request({{"probe", name}});
     if (auto* reason = std::get_if<record::Reason>(&answer)) {
-      rows.push_back(ended_row(name, std::move(*reason)));
+      rows.push_back(failed_row(name, std::move(*reason)));
     } else {
       rows.push_back({.name = name, .probed = as_probed(std::get<nlohmann::json>(answer))});
     }
@@ -118,7 +118,8 @@ void answer_features(const Backend& backend, const std::string& device_id) {
   while (const auto request = receive(Process::child_request_fd)) {
     if (!device) {
       device = backend.open(device_id);
-      if (auto* able = dynamic_cast<ProbesFeatures*>(device.get())) probes = able->feature_probes();
+      if (auto* feature_prober = dynamic_cast<FeatureProber*>(device.get()))
+        probes = feature_prober->feature_probes();
     }
     const std::string name = request->json.at("probe");
     const auto probe = std::ranges::find(probes, name, &FeatureProbe::name);

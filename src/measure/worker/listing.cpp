@@ -44,27 +44,28 @@ Listing from_json(const core::Json& json) {
 }
 
 // Starts this program with `command`, sends the request and returns the only answer.
-WorkerLink::Reply ask_once(const std::vector<std::string>& command, const std::string& device_id,
-                           const Message& request, std::chrono::seconds limit) {
+WorkerLink::Reply request_once(const std::vector<std::string>& command,
+                               const std::string& device_id, const Message& request,
+                               std::chrono::seconds limit) {
   InterruptGuard interrupts;
   const CacheFolder cache(device_id);
   const std::vector<std::string> variables = compile_only_environment(device_id);
   WorkerLink link(command, worker_environment(device_id, cache, variables), interrupts);
-  WorkerLink::Reply reply = link.ask(request, limit);
+  WorkerLink::Reply reply = link.send_request(request, limit);
   if (std::holds_alternative<Message>(reply)) link.finish();
   return reply;
 }
 
 record::Reason reason_of(const WorkerLink::Reply& reply) {
   if (const auto* died = std::get_if<WorkerLink::Died>(&reply)) return died->reason;
-  if (const auto* late = std::get_if<WorkerLink::Late>(&reply)) return late->reason;
+  if (const auto* timed_out = std::get_if<WorkerLink::TimedOut>(&reply)) return timed_out->reason;
   return {.cause = record::Cause::bad_answer};
 }
 
 Listing list_one(const std::string& api) {
   const WorkerLink::Reply reply =
-      ask_once({own_program(), "list-api", api}, api + ":listing",
-               {.json = core::Json::object(), .binary = {}}, listing_limit);
+      request_once({own_program(), "list-api", api}, api + ":listing",
+                   {.json = core::Json::object(), .binary = {}}, listing_limit);
   record::Reason reason = reason_of(reply);
   if (const auto* answer = std::get_if<Message>(&reply)) {
     try {
@@ -79,20 +80,20 @@ Listing list_one(const std::string& api) {
 // Asks the driver whether it can compile for the GPU family of this device, and adds the result to
 // `listing`.
 void list_compiler(const std::string& id, Listing& listing) {
-  constexpr const char* newer =
+  constexpr const char* newer_driver_hint =
       "but a newer driver may; for example, Mesa 25.0 in Debian 13 supports AMD GPU families up "
       "to gfx1201";
   const std::string api = id.substr(0, id.find(':'));
-  const auto refuse = [&](std::string reason) {
+  const auto add_broken = [&](std::string reason) {
     listing.broken.push_back({.what = id, .reason = std::move(reason)});
   };
   try {
     const WorkerLink::Reply reply =
-        ask_once({own_program(), "list-api", api}, id, {.json = core::Json::object(), .binary = {}},
-                 compiler_limit);
+        request_once({own_program(), "list-api", api}, id,
+                     {.json = core::Json::object(), .binary = {}}, compiler_limit);
     const auto* answer = std::get_if<Message>(&reply);
-    if (std::holds_alternative<WorkerLink::Late>(reply)) {
-      return refuse(
+    if (std::holds_alternative<WorkerLink::TimedOut>(reply)) {
+      return add_broken(
           fmt::format("the installed driver did not respond within {} s", compiler_limit.count()));
     }
     if (answer == nullptr) {
@@ -102,21 +103,22 @@ void list_compiler(const std::string& id, Listing& listing) {
                                 .reason = std::string("the installed driver exited without "
                                                       "responding; it may not support this GPU "
                                                       "family, ") +
-                                          newer,
+                                          newer_driver_hint,
                                 .ended = reason_of(reply)});
       return;
     }
     for (record::Device& device : from_json(answer->json).devices) {
       if (device.id == id) return listing.devices.push_back(std::move(device));
     }
-    refuse(std::string("the installed driver does not support this GPU family, ") + newer);
+    add_broken(std::string("the installed driver does not support this GPU family, ") +
+               newer_driver_hint);
   } catch (const core::NotSupported& error) {
-    refuse(error.what());
+    add_broken(error.what());
   }
 }
 
 // Throws an error that states why no device in the listing matches `glob`.
-[[noreturn]] void refuse_devices(const Listing& listing, std::string_view glob) {
+[[noreturn]] void throw_no_match(const Listing& listing, std::string_view glob) {
   if (listing.devices.empty()) {
     throw core::NotSupported(fmt::format(
         "no device matches {}, because no installed driver provides a device; run ci/setup to "
@@ -130,8 +132,8 @@ void list_compiler(const std::string& id, Listing& listing) {
                          each.reason);
     // The last output of a process that failed while it enumerated devices may state the cause. For
     // example, RADV prints a message and aborts if it does not support a GPU family.
-    if (each.ended && !each.ended->last_words.empty()) {
-      known += fmt::format(" (its last output: {})", each.ended->last_words);
+    if (each.ended && !each.ended->last_output.empty()) {
+      known += fmt::format(" (its last output: {})", each.ended->last_output);
     }
   }
   throw core::NotSupported(fmt::format("no device matches {}; available devices:{}", glob, known));
@@ -141,16 +143,16 @@ void list_compiler(const std::string& id, Listing& listing) {
 
 std::vector<std::string> apis_of(const std::vector<std::string>& globs,
                                  const std::vector<std::string>& apis) {
-  std::vector<std::string> fit;
+  std::vector<std::string> matching;
   for (const std::string& api : apis) {
     const std::string prefix = api + ":";
     const bool may_match = std::ranges::any_of(globs, [&](const std::string& glob) {
       const std::string literal = glob.substr(0, glob.find_first_of("*?"));
       return literal.starts_with(prefix) || prefix.starts_with(literal);
     });
-    if (may_match) fit.push_back(api);
+    if (may_match) matching.push_back(api);
   }
-  return fit.empty() ? apis : fit;
+  return matching.empty() ? apis : matching;
 }
 
 void append(Listing& all, Listing more) {
@@ -164,13 +166,13 @@ Listing list_devices(const std::vector<std::string>& apis) {
   return all;
 }
 
-bool name_a_compiler(const std::vector<std::string>& globs) {
+bool names_compile_only_device(const std::vector<std::string>& globs) {
   return std::ranges::any_of(
       globs, [](const std::string& glob) { return compile_only(glob).has_value(); });
 }
 
 std::vector<std::string> installed_compilers() {
-  std::vector<std::string> ids = usual_compile_only_devices();
+  std::vector<std::string> ids = default_compile_only_devices();
   std::erase_if(ids, [](const std::string& id) {
     try {
       static_cast<void>(compile_only_environment(id));
@@ -183,7 +185,7 @@ std::vector<std::string> installed_compilers() {
 }
 
 Listing list_compilers(const std::vector<std::string>& globs) {
-  std::vector<std::string> ids = usual_compile_only_devices();
+  std::vector<std::string> ids = default_compile_only_devices();
   if (!globs.empty()) {
     std::erase_if(ids, [&](const std::string& id) { return !core::any_glob_matches(globs, id); });
   }
@@ -197,18 +199,18 @@ Listing list_compilers(const std::vector<std::string>& globs) {
 
 std::vector<std::string> choose_devices(const Listing& listing,
                                         const std::vector<std::string>& globs) {
-  const std::vector<std::string> asked = globs.empty() ? std::vector<std::string>{"*"} : globs;
+  const std::vector<std::string> patterns = globs.empty() ? std::vector<std::string>{"*"} : globs;
   const auto matches = [](const std::string& glob, const record::Device& device) {
     return core::glob_matches(glob, device.id);
   };
-  for (const std::string& glob : asked) {
-    const auto meant = [&](const record::Device& device) { return matches(glob, device); };
-    if (std::ranges::none_of(listing.devices, meant)) refuse_devices(listing, glob);
+  for (const std::string& glob : patterns) {
+    const auto matches_glob = [&](const record::Device& device) { return matches(glob, device); };
+    if (std::ranges::none_of(listing.devices, matches_glob)) throw_no_match(listing, glob);
   }
   std::vector<std::string> chosen;
   for (const record::Device& device : listing.devices) {
-    const auto takes = [&](const std::string& glob) { return matches(glob, device); };
-    if (std::ranges::any_of(asked, takes)) chosen.push_back(device.id);
+    const auto is_chosen = [&](const std::string& glob) { return matches(glob, device); };
+    if (std::ranges::any_of(patterns, is_chosen)) chosen.push_back(device.id);
   }
   return chosen;
 }
@@ -226,7 +228,7 @@ Greeting greet(const record::Device& device, const std::string& suite) {
   command.push_back(device.id);
   const Message start =
       to_message(Start{.suite = suite, .kinds = {"compute", "draw"}, .clocks = {}});
-  const WorkerLink::Reply reply = ask_once(command, device.id, start, greeting_limit);
+  const WorkerLink::Reply reply = request_once(command, device.id, start, greeting_limit);
   if (const auto* answer = std::get_if<Message>(&reply)) {
     if (const auto hello = as_hello(*answer)) return {hello->device, hello->clocks, {}};
     if (const auto refused = as_refused(*answer)) return {device, {}, refused->reason};

@@ -34,7 +34,7 @@ void append(Listing& all, Listing more);
 [[nodiscard]] Listing list_compilers(const std::vector<std::string>& globs);
 
 // Returns whether any of the globs is the full id of a compile-only device.
-[[nodiscard]] bool name_a_compiler(const std::vector<std::string>& globs);
+[[nodiscard]] bool names_compile_only_device(const std::vector<std::string>& globs);
 
 // Returns the ids of the devices that match any of the globs (all devices if there are no globs),
 // in the order of the listing. If a glob matches no device, throws a core::NotSupported that lists

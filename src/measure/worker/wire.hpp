@@ -84,7 +84,7 @@ struct Refused {
   // Returns whether the device does not support the request.
   [[nodiscard]] bool unsupported() const { return reason.cause == record::Cause::not_supported; }
   // Returns whether the worker refused. If it sent its Hello instead, the reason has no cause.
-  [[nodiscard]] bool is_one() const { return reason.cause != record::Cause::none; }
+  [[nodiscard]] bool is_refusal() const { return reason.cause != record::Cause::none; }
 };
 
 struct Job {

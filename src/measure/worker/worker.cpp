@@ -98,12 +98,12 @@ record::Reason api_reason(record::Cause cause, const core::ApiError& error) {
 
 // Runs `act`, and converts each type of error to the outcome of the configuration. `data` is the
 // name of the data set that is reported if memory is exhausted.
-template <typename Act, typename OnFailure>
-void outcome_of(const Act& act, const std::string& data, const OnFailure& on_failure) {
+template <typename Action, typename OnFailure>
+void outcome_of(const Action& action, const std::string& data, const OnFailure& on_failure) {
   using record::Cause;
   using record::Outcome;
   try {
-    act();
+    action();
   } catch (const BadInput& error) {
     on_failure(Outcome::skipped, {.cause = Cause::bad_input, .detail = error.what()});
   } catch (const MissingData& error) {
@@ -159,12 +159,12 @@ class Worker {
     const Stopwatch whole;
     Answer answer;
     answer.record.factors = job.configuration;
-    outcome_of([&] { perform(job, answer); }, data_,
+    outcome_of([&] { run_job(job, answer); }, data_,
                [&](record::Outcome outcome, record::Reason reason) {
-                 conclude(answer, outcome, std::move(reason));
+                 set_failure(answer, outcome, std::move(reason));
                });
-    blame_arithmetic([&](record::Reason reason) {
-      conclude(answer, record::Outcome::failed, std::move(reason));
+    report_changed_arithmetic([&](record::Reason reason) {
+      set_failure(answer, record::Outcome::failed, std::move(reason));
     });
     answer.record.peak_memory_bytes = peak_memory_bytes();
     answer.worker_ns = whole.ns();
@@ -175,17 +175,18 @@ class Worker {
 
   [[nodiscard]] Batch hold(const Hold& hold) {
     return batch([&](Batch&) {
-      held_.reset();
+      prepared_.reset();
       require_execution();
       Configuration configuration = hold.configuration;
-      held_ = device_->prepare(supported_work(configuration, hold.faults));
-      proof_.emplace(*held_);
+      prepared_ = device_->prepare(supported_work(configuration, hold.faults));
+      proof_.emplace(*prepared_);
     });
   }
 
   [[nodiscard]] Batch draw(const Frames& frames) {
     return batch([&](Batch& batch) {
-      if (!held_) throw core::InputError("frames were requested, but no configuration is prepared");
+      if (!prepared_)
+        throw core::InputError("frames were requested, but no configuration is prepared");
       for (int i = 0; i < frames.count; ++i) {
         const Frame frame = proof_->draw(Purpose::timing);
         proof_->check(fmt::format("frame {} of {}", i + 1, frames.count));
@@ -197,23 +198,23 @@ class Worker {
   }
 
   [[nodiscard]] Batch release() {
-    return batch([this](Batch&) { held_.reset(); });
+    return batch([this](Batch&) { prepared_.reset(); });
   }
 
  private:
-  template <typename Act>
-  Batch batch(const Act& act) {
+  template <typename Action>
+  Batch batch(const Action& action) {
     Batch batch;
     outcome_of(
-        [&] { act(batch); }, data_,
+        [&] { action(batch); }, data_,
         [&](record::Outcome outcome, record::Reason reason) {
           batch = {.outcome = outcome, .reason = std::move(reason), .wall_ns = {}, .device_ns = {}};
           // Does not free the objects of a lost device, because drivers fail most often while they
           // free such objects.
           if (outcome == record::Outcome::lost) {
-            static_cast<void>(held_.release());
+            static_cast<void>(prepared_.release());
           } else {
-            held_.reset();
+            prepared_.reset();
           }
         });
     return batch;
@@ -223,7 +224,7 @@ class Worker {
   // rounding mode was wrong, also reports that the current configuration failed, because data
   // generated in that mode would not be bit-identical to the accepted data.
   template <typename OnFailure>
-  void blame_arithmetic(const OnFailure& on_failure) {
+  void report_changed_arithmetic(const OnFailure& on_failure) {
     std::string changed = restore_arithmetic();
     if (changed.empty()) changed = std::exchange(changed_arithmetic_, {});
     if (changed.empty()) return;
@@ -234,7 +235,7 @@ class Worker {
 
   // Sets the outcome, and removes all results that would suggest that the configuration was
   // measured.
-  static void conclude(Answer& answer, record::Outcome outcome, record::Reason reason) {
+  static void set_failure(Answer& answer, record::Outcome outcome, record::Reason reason) {
     record::Record record;
     record.factors = std::move(answer.record.factors);
     record.prepare_ns = answer.record.prepare_ns;
@@ -270,16 +271,16 @@ class Worker {
     }
   }
 
-  void perform(const Job& job, Answer& answer) {
+  void run_job(const Job& job, Answer& answer) {
     measuring_ns_ = 0;
     if (!job.protocol.compiled) require_execution();
     const Stopwatch whole;
     Configuration configuration = job.configuration;
     const Work work = work_or_skip(configuration, job.faults);
     if (job.protocol.compiled) return compile(work, std::move(configuration), answer);
-    const bool may_share = !job.protocol.measure_every && job.faults.empty();
+    const bool may_reuse = !job.protocol.measure_every && job.faults.empty();
     std::optional<PlainWork> plain;
-    if (may_share) plain = suite_.plain(configuration, work);
+    if (may_reuse) plain = suite_.plain(configuration, work);
     if (const auto equivalent = plain ? equivalents_.find(*plain) : std::nullopt) {
       answer.record.outcome = record::Outcome::measured;
       answer.record.same_as = equivalent->key;
@@ -350,7 +351,7 @@ class Worker {
       throw core::NotSupported("this worker is not running under the instruction counter");
     record::Counts prepare_cost;
     const Stopwatch measuring;
-    const auto prepared = counter_->counting(prepare_cost, [&] { return device_->prepare(work); });
+    const auto prepared = counter_->count(prepare_cost, [&] { return device_->prepare(work); });
     Measurement measured =
         count_instructions(*prepared, protocol_for(job, work, has_statistics_), *counter_);
     measuring_ns_ = measuring.ns();
@@ -369,8 +370,8 @@ class Worker {
   std::optional<InstructionCounter> counter_;
   // Created only when a loop needs the meters, because the constructor loads a library.
   std::optional<EnergyMeters> meters_;
-  std::unique_ptr<Prepared> held_;
-  std::optional<FrameProof> proof_;  // for the configuration in `held_`
+  std::unique_ptr<Prepared> prepared_;
+  std::optional<FrameProof> proof_;  // for the configuration in `prepared_`
   Equivalents equivalents_;
   bool has_statistics_ = true;  // false if reading pipeline statistics caused a device fault
   // The wrong rounding mode that the driver set while the device was opened and calibrated.
@@ -389,7 +390,7 @@ void die_with_parent() {
 
 // Sets close-on-exec, so that processes that a driver starts do not keep the pipes to the
 // supervisor open after this process has ended.
-void keep_to_ourselves(int fd) {
+void set_close_on_exec(int fd) {
   if (const int flags = ::fcntl(fd, F_GETFD); flags >= 0) ::fcntl(fd, F_SETFD, flags | FD_CLOEXEC);
 }
 
@@ -422,8 +423,8 @@ int serve(const Backend& backend, std::string_view device_id, const FindSuite& f
   const auto start = as_start(*first);
   if (!start) throw core::InputError("a worker's first message must be 'start'");
   Suite& suite = find_suite(start->suite);
-  suite.tell_of_loading(
-      paced([answer_fd](const Loading& loading) { send(answer_fd, to_message(loading)); }));
+  suite.set_on_loading(
+      throttled([answer_fd](const Loading& loading) { send(answer_fd, to_message(loading)); }));
   Worker worker(backend.open(device_id), suite, start->clocks);
   worker.calibrate_for(start->kinds, start->statistics);
   send(answer_fd, to_message(Hello{.device = worker.info(), .clocks = worker.clocks()}));
@@ -459,9 +460,9 @@ void describe_work(const Work& work, const Device& device, record::Record& recor
 int serve_worker(const Backend& backend, std::string_view device_id, const FindSuite& find_suite,
                  int request_fd, int answer_fd) {
   die_with_parent();
-  write_stack_of_crashes();
-  keep_to_ourselves(request_fd);
-  keep_to_ourselves(answer_fd);
+  install_stack_trace_handlers();
+  set_close_on_exec(request_fd);
+  set_close_on_exec(answer_fd);
   Refused refused;
   try {
     return serve(backend, device_id, find_suite, request_fd, answer_fd);

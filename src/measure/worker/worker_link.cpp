@@ -39,7 +39,7 @@ bool drain(int fd, Take take) {
 }
 
 // Returns whether another process ended the worker on purpose. Drivers do not raise these signals.
-bool is_ordered(const Exit& exit) {
+bool was_ended_externally(const Exit& exit) {
   return exit.signal == SIGKILL || exit.signal == SIGTERM || exit.signal == SIGINT;
 }
 
@@ -71,41 +71,42 @@ WorkerLink::WorkerLink(const std::vector<std::string>& command,
                        const std::vector<std::string>& environment, InterruptGuard& interrupts)
     : process_(command, environment), interrupts_(interrupts) {}
 
-WorkerLink::Reply WorkerLink::ask(const Message& request, std::chrono::milliseconds limit,
-                                  const OnLoading& on_loading) {
+WorkerLink::Reply WorkerLink::send_request(const Message& request, std::chrono::milliseconds limit,
+                                           const OnLoading& on_loading) {
   log_.clear();
   const Deadline deadline = std::chrono::steady_clock::now() + limit;
   try {
     send(process_.request_fd(), request);
   } catch (const PipeClosed&) {
-    return bury();
+    return reap_dead_worker();
   }
   for (;;) {
     const bool in_time = wait_for_event(deadline);
-    if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
+    if (const auto signal = interrupts_.received_signal()) throw Interrupted(*signal);
     // Reads `ended_` before the pipe. If the worker has ended by then, the pipe already contains
     // everything that the worker wrote.
-    const bool over = ended_;
+    const bool has_ended = ended_;
     read_answer();
     read_log();
     try {
       if (auto message = next_answer(on_loading)) return std::move(*message);
     } catch (const core::InputError& error) {
-      return Died{bury_for({.cause = record::Cause::bad_answer, .detail = error.what()})};
+      return Died{kill_for({.cause = record::Cause::bad_answer, .detail = error.what()})};
     }
-    if (over || !answers_open_) return bury();
+    if (has_ended || !answers_open_) return reap_dead_worker();
     if (!in_time) {
       const double limit_s = std::chrono::duration<double>(limit).count();
-      return Late{bury_for({.cause = record::Cause::timeout, .numbers = {{"limit_s", limit_s}}})};
+      return TimedOut{
+          kill_for({.cause = record::Cause::timeout, .numbers = {{"limit_s", limit_s}}})};
     }
   }
 }
 
 std::variant<Hello, Refused> WorkerLink::greet(const Start& start,
                                                std::chrono::milliseconds limit) {
-  const Reply reply = ask(to_message(start), limit);
+  const Reply reply = send_request(to_message(start), limit);
   if (const auto* died = std::get_if<Died>(&reply)) return Refused{died->reason};
-  if (const auto* late = std::get_if<Late>(&reply)) return Refused{late->reason};
+  if (const auto* timed_out = std::get_if<TimedOut>(&reply)) return Refused{timed_out->reason};
   const Message& message = std::get<Message>(reply);
   if (const auto refused = as_refused(message)) return *refused;
   const auto hello = as_hello(message);
@@ -114,38 +115,38 @@ std::variant<Hello, Refused> WorkerLink::greet(const Start& start,
 }
 
 std::optional<record::DeviceFault> WorkerLink::finish() {
-  constexpr std::chrono::seconds patience{5};
+  constexpr std::chrono::seconds time_limit{5};
   constexpr std::chrono::milliseconds step{20};
   log_.clear();
   process_.close_requests();
-  const Deadline deadline = std::chrono::steady_clock::now() + patience;
+  const Deadline deadline = std::chrono::steady_clock::now() + time_limit;
   std::optional<Exit> exit;
   do {
     exit = process_.wait(step);
     read_log();  // empties the pipe, because a process that is blocked by a full pipe cannot exit
   } while (!exit && std::chrono::steady_clock::now() < deadline);
   if (!exit) {
-    ask_for_stack();
+    request_stack_trace();
     process_.kill();
-    static_cast<void>(process_.wait(patience));
+    static_cast<void>(process_.wait(time_limit));
     return record::DeviceFault{
         .kind = record::DeviceFaultKind::teardown_hang,
-        .detail = fmt::format("the process did not exit within {} s", patience.count()),
-        .last_words = last_words()};
+        .detail = fmt::format("the process did not exit within {} s", time_limit.count()),
+        .last_output = last_output()};
   }
-  if (is_ordered(*exit) || (exit->signal == 0 && exit->code == 0)) return std::nullopt;
+  if (was_ended_externally(*exit) || (exit->signal == 0 && exit->code == 0)) return std::nullopt;
   return record::DeviceFault{.kind = record::DeviceFaultKind::teardown_crash,
                              .detail = describe(*exit),
-                             .last_words = last_words()};
+                             .last_output = last_output()};
 }
 
-void WorkerLink::ask_for_stack() {
-  constexpr std::chrono::milliseconds patience{300};
+void WorkerLink::request_stack_trace() {
+  constexpr std::chrono::milliseconds time_limit{300};
   if (::kill(process_.pid(), SIGUSR2) != 0) return;
-  const Deadline deadline = std::chrono::steady_clock::now() + patience;
+  const Deadline deadline = std::chrono::steady_clock::now() + time_limit;
   while (std::chrono::steady_clock::now() < deadline && log_open_) {
     pollfd event{process_.log_fd(), POLLIN, 0};
-    if (::poll(&event, 1, static_cast<int>(patience.count())) <= 0) return;
+    if (::poll(&event, 1, static_cast<int>(time_limit.count())) <= 0) return;
     read_log();
   }
 }
@@ -190,19 +191,19 @@ bool WorkerLink::wait_for_event(Deadline deadline) {
 std::optional<Exit> WorkerLink::reap() {
   // Waits before killing the worker. A worker that closed its answer pipe is about to exit, and its
   // exit status is needed.
-  constexpr std::chrono::seconds patience{2};
-  auto exit = process_.wait(patience);
+  constexpr std::chrono::seconds time_limit{2};
+  auto exit = process_.wait(time_limit);
   if (!exit) {
     process_.kill();
-    exit = process_.wait(patience);
+    exit = process_.wait(time_limit);
   }
   read_log();
   return exit;
 }
 
-WorkerLink::Died WorkerLink::bury() {
+WorkerLink::Died WorkerLink::reap_dead_worker() {
   const std::optional<Exit> exit = reap();
-  if (exit && is_ordered(*exit)) await_own_end();
+  if (exit && was_ended_externally(*exit)) wait_for_interrupt();
   record::Reason reason{.cause = record::Cause::unknown_end};
   if (exit && exit->signal != 0) {
     reason.cause = record::Cause::signal;
@@ -211,36 +212,36 @@ WorkerLink::Died WorkerLink::bury() {
     reason.cause = record::Cause::exit_code;
     reason.numbers["exit_code"] = exit->code;
   }
-  reason.last_words = last_words();
+  reason.last_output = last_output();
   return {std::move(reason)};
 }
 
-record::Reason WorkerLink::bury_for(record::Reason reason) {
-  if (reason.cause == record::Cause::timeout) ask_for_stack();
+record::Reason WorkerLink::kill_for(record::Reason reason) {
+  if (reason.cause == record::Cause::timeout) request_stack_trace();
   process_.kill();
   static_cast<void>(reap());
-  reason.last_words = last_words();
+  reason.last_output = last_output();
   return reason;
 }
 
 // Waits up to 0.3 s for a signal that asks this process to stop, and throws Interrupted if it
 // arrives. When a batch system ends a job, it ends the worker and this process at the same time. If
 // the worker ends first, its end must not be recorded as a failure of the configuration.
-void WorkerLink::await_own_end() {
+void WorkerLink::wait_for_interrupt() {
   const Deadline deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(300);
   for (;;) {
     const auto left =
         std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
     pollfd event{interrupts_.fd(), POLLIN, 0};
     ::poll(&event, 1, static_cast<int>(std::max<std::int64_t>(0, left.count())));
-    if (const auto signal = interrupts_.take()) throw Interrupted(*signal);
+    if (const auto signal = interrupts_.received_signal()) throw Interrupted(*signal);
     // Continues until the deadline, because another thread may have read the signal but not yet
     // stored it.
     if (std::chrono::steady_clock::now() >= deadline) return;
   }
 }
 
-std::string WorkerLink::last_words() const {
+std::string WorkerLink::last_output() const {
   constexpr std::size_t lines = 12;  // enough for a part of a call stack
   return log_.last_lines(lines);
 }

@@ -37,21 +37,21 @@ class WorkerLink {
     record::Reason reason;
   };
   // The worker did not answer within the time limit and was killed.
-  struct Late {
+  struct TimedOut {
     record::Reason reason;
   };
-  using Reply = std::variant<Message, Died, Late>;
+  using Reply = std::variant<Message, Died, TimedOut>;
 
   // Starts the worker. Throws IoError if the command cannot be started.
   WorkerLink(const std::vector<std::string>& command, const std::vector<std::string>& environment,
              InterruptGuard& interrupts);
 
-  // Sends a request and waits for the reply. If the reply is Died or Late, the process has been
+  // Sends a request and waits for the reply. If the reply is Died or TimedOut, the process has been
   // reaped, and the link must not be used any longer. If the worker reports loading progress before
   // its answer, the progress is passed to `on_loading`, unless `on_loading` is empty. Throws
   // Interrupted if a signal asks the supervisor to stop.
-  [[nodiscard]] Reply ask(const Message& request, std::chrono::milliseconds limit,
-                          const OnLoading& on_loading = {});
+  [[nodiscard]] Reply send_request(const Message& request, std::chrono::milliseconds limit,
+                                   const OnLoading& on_loading = {});
 
   // Sends the first message. Returns the worker's greeting, or the reason why its device cannot be
   // opened.
@@ -73,15 +73,15 @@ class WorkerLink {
   void read_log();
   // Waits for an event on any of the descriptors. Returns false if the deadline passes first.
   [[nodiscard]] bool wait_for_event(Deadline deadline);
-  [[nodiscard]] Died bury();
+  [[nodiscard]] Died reap_dead_worker();
   // Kills the worker, and returns `reason` with the worker's last output.
-  [[nodiscard]] record::Reason bury_for(record::Reason reason);
+  [[nodiscard]] record::Reason kill_for(record::Reason reason);
   // Waits until the worker has ended, after killing it if necessary. Returns how it ended.
   [[nodiscard]] std::optional<Exit> reap();
-  void await_own_end();
+  void wait_for_interrupt();
   // Makes a hanging worker write the call stack of its thread to the log.
-  void ask_for_stack();
-  [[nodiscard]] std::string last_words() const;
+  void request_stack_trace();
+  [[nodiscard]] std::string last_output() const;
 
   Process process_;
   InterruptGuard& interrupts_;

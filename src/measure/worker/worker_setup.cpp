@@ -17,7 +17,7 @@ namespace {
 
 // Sets a separate shader cache for Mesa. The default cache is shared by all programs, so a worker
 // with additional environment variables must not use it.
-void keep_shaders_apart(std::vector<std::string>& environment) {
+void separate_shader_caches(std::vector<std::string>& environment) {
   constexpr const char* name = "MESA_SHADER_CACHE_DIR";
   const auto sets_it = [&](const std::string& entry) {
     return entry.starts_with(fmt::format("{}=", name));
@@ -56,7 +56,7 @@ WorkerSetup worker_setup(const SideOptions& side, bool counted, const CacheFolde
       overrides.insert(overrides.end(), emulator->environment.begin(), emulator->environment.end());
     }
   } else if (!side.environment.empty()) {
-    keep_shaders_apart(overrides);
+    separate_shader_caches(overrides);
   }
   if (!counted) {
     for (std::string& each : compile_only_environment(side.device, side.environment)) {

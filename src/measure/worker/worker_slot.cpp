@@ -21,23 +21,23 @@ record::DeviceFault statistics_crash(const record::Reason& reason) {
   return {.kind = record::DeviceFaultKind::statistics_crash,
           .detail = signal ? fmt::format("signal {:.0f}", *signal)
                            : std::string(record::name_of(reason.cause)),
-          .last_words = reason.last_words};
+          .last_output = reason.last_output};
 }
 
 }  // namespace
 
 bool WorkerSlot::open(const std::function<Start()>& start,
-                      const std::function<void(const Hello&)>& greeted) {
+                      const std::function<void(const Hello&)>& on_hello) {
   constexpr int most_attempts = 2;
-  for (int attempt = 0; !occupied() && !why_closed_.is_one(); ++attempt) {
-    Start asked = start();
-    asked.statistics = asked.statistics && !statistics_fault_;
-    const bool reads_statistics = !asked.kinds.empty() && asked.statistics;
-    Refused refused = try_to_open(asked, [&](Hello hello) {
+  for (int attempt = 0; !occupied() && !why_closed_.is_refusal(); ++attempt) {
+    Start request = start();
+    request.statistics = request.statistics && !statistics_fault_;
+    const bool reads_statistics = !request.kinds.empty() && request.statistics;
+    Refused refused = try_to_open(request, [&](Hello hello) {
       if (statistics_fault_) hello.device.faults.push_back(*statistics_fault_);
-      greeted(hello);
+      on_hello(hello);
     });
-    if (!refused.is_one()) continue;
+    if (!refused.is_refusal()) continue;
     if (!refused.unsupported() && attempt + 1 < most_attempts) continue;
     // If the driver crashed or hung in the second attempt, one more attempt is made without
     // pipeline statistics. If it crashes even then, the statistics are not the cause.
@@ -51,15 +51,15 @@ bool WorkerSlot::open(const std::function<Start()>& start,
   return occupied();
 }
 
-std::variant<Answer, WorkerSlot::Ended> WorkerSlot::ask(const Message& job,
-                                                        std::chrono::milliseconds limit,
-                                                        const OnLoading& on_loading) {
-  WorkerLink::Reply reply = worker().ask(job, limit, on_loading);
+std::variant<Answer, WorkerSlot::Ended> WorkerSlot::run_job(const Message& job,
+                                                            std::chrono::milliseconds limit,
+                                                            const OnLoading& on_loading) {
+  WorkerLink::Reply reply = worker().send_request(job, limit, on_loading);
   Ended ended{record::Outcome::failed, {.cause = record::Cause::bad_answer}};
   if (auto* died = std::get_if<WorkerLink::Died>(&reply)) {
     ended = {record::Outcome::crashed, std::move(died->reason)};
-  } else if (auto* late = std::get_if<WorkerLink::Late>(&reply)) {
-    ended = {record::Outcome::hung, std::move(late->reason)};
+  } else if (auto* timed_out = std::get_if<WorkerLink::TimedOut>(&reply)) {
+    ended = {record::Outcome::hung, std::move(timed_out->reason)};
   } else {
     try {
       if (auto answer = as_answer(std::move(std::get<Message>(reply)))) {
@@ -86,7 +86,7 @@ std::optional<record::DeviceFault> WorkerSlot::finish() {
 }
 
 Refused WorkerSlot::try_to_open(const Start& start,
-                                const std::function<void(const Hello&)>& greeted) {
+                                const std::function<void(const Hello&)>& on_hello) {
   std::vector<std::string> command = setup_.command;
   command.push_back(setup_.device);
   const auto closed = [this](Refused refused) {
@@ -106,7 +106,7 @@ Refused WorkerSlot::try_to_open(const Start& start,
   const auto greeting = worker->greet(start, setup_.limit);
   opening_ns_ += opening.ns();
   if (const auto* refused = std::get_if<Refused>(&greeting)) return closed(*refused);
-  greeted(std::get<Hello>(greeting));
+  on_hello(std::get<Hello>(greeting));
   worker_ = std::move(worker);
   return {};
 }

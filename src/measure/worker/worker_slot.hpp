@@ -27,12 +27,12 @@ class WorkerSlot {
       : setup_(std::move(setup)), interrupts_(interrupts) {}
 
   // Starts a worker if there is none. Returns true if there is a worker now. A new worker receives
-  // the message that `start` returns. Its greeting is passed to `greeted`, which may throw an
+  // the message that `start` returns. Its greeting is passed to `on_hello`, which may throw an
   // exception to reject the worker. No further attempt is made if two attempts in a row fail, or if
   // the device does not support the request. However, if the second attempt ended with a crash or a
   // timeout, one more attempt is made, in which pipeline statistics are not read. After the last
   // attempt, this call and all later calls return false, and why_closed() returns the reason.
-  bool open(const std::function<Start()>& start, const std::function<void(const Hello&)>& greeted);
+  bool open(const std::function<Start()>& start, const std::function<void(const Hello&)>& on_hello);
   [[nodiscard]] const record::Reason& why_closed() const noexcept { return why_closed_.reason; }
   // Returns whether the slot is closed because the device does not support the request.
   [[nodiscard]] bool unsupported() const noexcept { return why_closed_.unsupported(); }
@@ -48,8 +48,9 @@ class WorkerSlot {
   };
   // Sends a job to the worker. The slot must be occupied. Vacates the slot if the worker has ended,
   // and in the cases of vacate_after().
-  [[nodiscard]] std::variant<Answer, Ended> ask(const Message& job, std::chrono::milliseconds limit,
-                                                const OnLoading& on_loading);
+  [[nodiscard]] std::variant<Answer, Ended> run_job(const Message& job,
+                                                    std::chrono::milliseconds limit,
+                                                    const OnLoading& on_loading);
 
   // Lets the worker exit normally. Returns a device fault if the worker crashes or hangs while it
   // exits.
@@ -67,7 +68,7 @@ class WorkerSlot {
   // Starts a worker. The result contains no reason if the worker sent its greeting. Otherwise it
   // contains the reason why there is no worker.
   [[nodiscard]] Refused try_to_open(const Start& start,
-                                    const std::function<void(const Hello&)>& greeted);
+                                    const std::function<void(const Hello&)>& on_hello);
 
   WorkerSetup setup_;
   InterruptGuard& interrupts_;

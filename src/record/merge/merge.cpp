@@ -24,20 +24,20 @@ namespace fs = std::filesystem;
 // The maximum number of stores that are merged at once. It is limited because each open store needs
 // three file descriptors and a share of the memory. If there are more stores, they are merged in
 // groups of this size, and then the results of the groups are merged.
-constexpr std::size_t most_at_once = 64;
+constexpr std::size_t most_open_stores = 64;
 constexpr int source_cache_kib = 96 << 10;  // SQLite page cache, total for all sources
 constexpr int out_cache_kib = 96 << 10;
 constexpr std::chrono::seconds busy_limit{10};
 
 // Intermediate stores, which the destructor removes.
-class Aside {
+class IntermediateStores {
  public:
-  explicit Aside(const fs::path& out) : out_(out) {}
-  ~Aside() {
+  explicit IntermediateStores(const fs::path& out) : out_(out) {}
+  ~IntermediateStores() {
     for (const fs::path& each : files_) remove(each);
   }
-  Aside(const Aside&) = delete;
-  Aside& operator=(const Aside&) = delete;
+  IntermediateStores(const IntermediateStores&) = delete;
+  IntermediateStores& operator=(const IntermediateStores&) = delete;
 
   fs::path add() {
     files_.push_back(out_);
@@ -78,9 +78,9 @@ struct Input {
 };
 
 // Merges several inputs into one intermediate file.
-class Writing {
+class StoreWriter {
  public:
-  Writing(const std::vector<Input>& inputs, const fs::path& file, const fs::path& out)
+  StoreWriter(const std::vector<Input>& inputs, const fs::path& file, const fs::path& out)
       : out_file_(out), out_(on_new_store(out, [&] { return open_new_store_file(file); })) {
     on_new_store(out, [&] { out_.exec(fmt::format("PRAGMA cache_size = -{}", out_cache_kib)); });
     sources_.reserve(inputs.size());
@@ -100,12 +100,12 @@ class Writing {
   // Writes the runs. Returns, for each run, how many records were copied and how many were left
   // out.
   std::vector<RecordCounts> write(const std::vector<Input>& inputs, const std::vector<Run>& runs,
-                                  DataSeen& data, const RecordCopy::Tell& tell) {
+                                  DataHashes& data, const RecordCopy::OnProgress& on_progress) {
     return on_new_store(out_file_, [&] {
       out_.exec("BEGIN");
       std::vector<RecordCounts> counts;
       {
-        RecordCopy copy(sources_, out_, data, tell);
+        RecordCopy copy(sources_, out_, data, on_progress);
         for (std::size_t i = 0; i < runs.size(); ++i) {
           std::vector<std::string> parts;
           parts.reserve(inputs.size());
@@ -198,27 +198,27 @@ void add(const std::vector<RecordCounts>& part, std::vector<RecordCounts>& sum) 
     sum[i].repeated += part[i].repeated;
     sum[i].injected += part[i].injected;
     sum[i].not_chosen += part[i].not_chosen;
-    sum[i].measured_anew += part[i].measured_anew;
+    sum[i].remeasured += part[i].remeasured;
   }
 }
 
 // Writes the records and images of all inputs to an intermediate file. Merges in several steps if
-// there are more than `most_at_once` inputs.
-struct Stepwise {
+// there are more than `most_open_stores` inputs.
+struct StepwiseMerge {
   const std::vector<Run>& runs;
-  const RecordCopy::Tell& tell;
+  const RecordCopy::OnProgress& on_progress;
   const fs::path& out;
-  Aside& aside;
-  DataSeen data;
+  IntermediateStores& intermediate;
+  DataHashes data;
   // The number of records that were left out, summed over all steps, and the number of records that
   // were copied in the last step, because each step copies the remaining records again.
   std::vector<RecordCounts> counts;
 
   fs::path merge(std::vector<Input> inputs) {
-    while (inputs.size() > most_at_once) {
+    while (inputs.size() > most_open_stores) {
       std::vector<Input> merged;
-      for (std::size_t begin = 0; begin < inputs.size(); begin += most_at_once) {
-        const std::size_t end = std::min(begin + most_at_once, inputs.size());
+      for (std::size_t begin = 0; begin < inputs.size(); begin += most_open_stores) {
+        const std::size_t end = std::min(begin + most_open_stores, inputs.size());
         Input& group = merged.emplace_back();
         group.file = step({inputs.begin() + static_cast<std::ptrdiff_t>(begin),
                            inputs.begin() + static_cast<std::ptrdiff_t>(end)});
@@ -230,8 +230,8 @@ struct Stepwise {
   }
 
   fs::path step(const std::vector<Input>& inputs) {
-    fs::path file = aside.add();
-    add(Writing(inputs, file, out).write(inputs, runs, data, tell), counts);
+    fs::path file = intermediate.add();
+    add(StoreWriter(inputs, file, out).write(inputs, runs, data, on_progress), counts);
     return file;
   }
 };
@@ -277,10 +277,10 @@ void add_gaps(const Store& store, const Run& run, std::vector<Gap>& gaps) {
     gaps.push_back({run.plan, "", 0, run.configurations, planned});
   }
   for (const std::string& device : devices) {
-    const std::set<std::string> there = store.configurations(run.id, device);
-    Gap gap{run.plan, device, there.size(), run.configurations};
-    std::ranges::set_difference(planned, there, std::back_inserter(gap.missing));
-    if (!gap.missing.empty() || there.size() < run.configurations) gaps.push_back(std::move(gap));
+    const std::set<std::string> stored = store.configurations(run.id, device);
+    Gap gap{run.plan, device, stored.size(), run.configurations};
+    std::ranges::set_difference(planned, stored, std::back_inserter(gap.missing));
+    if (!gap.missing.empty() || stored.size() < run.configurations) gaps.push_back(std::move(gap));
   }
 }
 
@@ -302,7 +302,7 @@ std::vector<Gap> gaps_of(const Store& store) {
 }
 
 MergeResult merge_stores(const std::vector<fs::path>& stores, const fs::path& out,
-                         const RecordCopy::Tell& tell) {
+                         const RecordCopy::OnProgress& on_progress) {
   require_no_store(out);
   MergedRuns merged = merged_runs(stores);
   std::vector<Run> runs;
@@ -313,8 +313,9 @@ MergeResult merge_stores(const std::vector<fs::path>& stores, const fs::path& ou
     for (std::size_t i = 0; i < stores.size(); ++i) inputs[i].runs.push_back(each.parts[i]);
     runs.push_back(each.run);
   }
-  Aside aside(out);
-  Stepwise steps{runs, tell, out, aside, {}, std::vector<RecordCounts>(runs.size())};
+  IntermediateStores intermediate(out);
+  StepwiseMerge steps{runs,         on_progress, out,
+                      intermediate, {},          std::vector<RecordCounts>(runs.size())};
   const fs::path file = steps.merge(std::move(inputs));
   MergeResult result{.plans = {}, .older_runs = merged.older};
   for (std::size_t i = 0; i < runs.size(); ++i) {

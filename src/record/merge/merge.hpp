@@ -53,6 +53,6 @@ struct MergeResult {
 // exceptions that Store throws when a file cannot be read or written.
 [[nodiscard]] MergeResult merge_stores(const std::vector<std::filesystem::path>& stores,
                                        const std::filesystem::path& out,
-                                       const RecordCopy::Tell& tell = {});
+                                       const RecordCopy::OnProgress& on_progress = {});
 
 }  // namespace triptych::record

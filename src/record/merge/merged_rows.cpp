@@ -21,15 +21,15 @@ MergedRows::MergedRows(const std::vector<Source>& sources, std::string_view sele
 const MergedRows::Row* MergedRows::next() {
   if (row_) {
     advance(row_->source);
-    for (const std::size_t each : row_->rest) advance(each);
+    for (const std::size_t each : row_->other_sources) advance(each);
     row_.reset();
   }
   if (waiting_.empty()) return nullptr;
-  row_ = Row{.source = take_first(), .rest = {}};
+  row_ = Row{.source = take_first(), .other_sources = {}};
   while (!waiting_.empty() && compare(waiting_.front(), row_->source) == 0) {
     std::size_t other = take_first();
     if (before_(queries_[other], queries_[row_->source])) std::swap(other, row_->source);
-    row_->rest.push_back(other);
+    row_->other_sources.push_back(other);
   }
   return &*row_;
 }

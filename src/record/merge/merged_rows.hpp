@@ -33,8 +33,8 @@ class MergedRows {
 
   // The preferred row among all rows with the same key.
   struct Row {
-    std::size_t source;             // the source that the row comes from
-    std::vector<std::size_t> rest;  // the other sources that have a row with this key
+    std::size_t source;                      // the source that the row comes from
+    std::vector<std::size_t> other_sources;  // the other sources that have a row with this key
   };
   // Advances to the next key. Returns nullptr after the last key. The returned row is valid until
   // the next call. Throws the exceptions that Store throws when it reads a file.

@@ -40,12 +40,12 @@ std::string all_of(const std::string& a, const std::string& b) {
 
 // A run or device, and the file in which it was found first.
 template <typename T>
-struct Found {
+struct WithFile {
   T value;
   fs::path file;
 };
 
-void require_same_plan(const Found<Run>& known, const Run& run, const fs::path& file) {
+void require_same_plan(const WithFile<Run>& known, const Run& run, const fs::path& file) {
   if (run.plan_hash != known.value.plan_hash) {
     throw core::InputError(
         {.file = file.string()},
@@ -78,7 +78,7 @@ void add(const Run& run, Run& sum) {
   }
 }
 
-using Devices = std::map<std::string, Found<Store::DeviceEntry>>;
+using Devices = std::map<std::string, WithFile<Store::DeviceEntry>>;
 
 // Adds a device. If several parts contain the same device, their entries differ only in the
 // calibration of its clocks. In this case, the entry with the smallest seal (hash) is kept, so that
@@ -87,7 +87,7 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
   const std::string id = entry.device.id;
   const auto found = devices.find(id);
   if (found == devices.end()) {
-    devices.emplace(id, Found<Store::DeviceEntry>{std::move(entry), file});
+    devices.emplace(id, WithFile<Store::DeviceEntry>{std::move(entry), file});
     return;
   }
   auto& [known, known_file] = found->second;
@@ -106,8 +106,8 @@ void add(Store::DeviceEntry entry, const fs::path& file, Devices& devices) {
 }
 
 // The run that results from merging the runs of a plan. Each store adds its part to it.
-struct Growing {
-  Found<Run> first;
+struct PlanMerge {
+  WithFile<Run> first;
   Run sum;
   std::vector<std::string> parts;
   Devices devices;
@@ -115,14 +115,14 @@ struct Growing {
 };
 
 void add_store(const fs::path& file, std::size_t index, std::size_t count,
-               std::map<std::string, Growing>& plans, std::uint64_t& older) {
+               std::map<std::string, PlanMerge>& plans, std::uint64_t& older) {
   const Store store(file, Store::Mode::read);
   const std::vector<Run> latest = latest_runs(store);
   older += store.runs().size() - latest.size();
   for (const Run& run : latest) {
     const auto [found, is_new] = plans.try_emplace(
-        run.plan, Growing{{run, file}, run, std::vector<std::string>(count), {}, {}});
-    Growing& plan = found->second;
+        run.plan, PlanMerge{{run, file}, run, std::vector<std::string>(count), {}, {}});
+    PlanMerge& plan = found->second;
     require_same_plan(plan.first, run, file);
     add(run, plan.sum);
     plan.parts[index] = run.id;
@@ -137,7 +137,7 @@ void add_store(const fs::path& file, std::size_t index, std::size_t count,
 
 MergedRuns merged_runs(const std::vector<fs::path>& stores) {
   MergedRuns merged;
-  std::map<std::string, Growing> plans;
+  std::map<std::string, PlanMerge> plans;
   for (std::size_t i = 0; i < stores.size(); ++i) {
     add_store(stores[i], i, stores.size(), plans, merged.older);
   }

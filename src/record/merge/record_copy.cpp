@@ -15,8 +15,8 @@ namespace triptych::record {
 namespace {
 
 // The columns that the merge itself evaluates. Queries select them before all other columns.
-constexpr std::array<std::string_view, 8> named{"configuration", "device",    "outcome", "injected",
-                                                "seal",          "data_hash", "suite",   "seq"};
+constexpr std::array<std::string_view, 8> named_columns{
+    "configuration", "device", "outcome", "injected", "seal", "data_hash", "suite", "seq"};
 namespace column {
 enum : int { configuration, device, outcome, injected, seal, data_hash, suite, seq };
 }
@@ -32,7 +32,7 @@ std::vector<std::string> other_columns(const SQLite::Database& database) {
   std::vector<std::string> columns =
       texts(database, "SELECT name FROM pragma_table_info('record')");
   std::erase_if(columns, [](const std::string& each) {
-    return each == "run" || std::ranges::find(named, each) != named.end();
+    return each == "run" || std::ranges::find(named_columns, each) != named_columns.end();
   });
   return columns;
 }
@@ -41,7 +41,7 @@ std::vector<std::string> other_columns(const SQLite::Database& database) {
 // in the order in which they are read.
 std::vector<std::string> columns_with(const std::vector<std::string>& others) {
   std::vector<std::string> columns{"seq", "run"};
-  columns.insert(columns.end(), named.begin(), named.end() - 1);
+  columns.insert(columns.end(), named_columns.begin(), named_columns.end() - 1);
   columns.insert(columns.end(), others.begin(), others.end());
   return columns;
 }
@@ -75,7 +75,7 @@ std::string add_factors(RowBatch& rows, Query& factors, std::int64_t record) {
     rows.add(record);
     rows.add(factors, 0, 2);
     const std::string_view name = factors.text(0);
-    if (!decides_data(name)) continue;
+    if (!determines_data(name)) continue;
     data.append(" ").append(name).append("=").append(factors.text(1));
   }
   return data;
@@ -83,8 +83,8 @@ std::string add_factors(RowBatch& rows, Query& factors, std::int64_t record) {
 
 }  // namespace
 
-void DataSeen::saw(const std::string& name, std::string_view hash,
-                   const std::filesystem::path& file) {
+void DataHashes::add(const std::string& name, std::string_view hash,
+                     const std::filesystem::path& file) {
   const auto [known, is_new] = contents_.try_emplace(name, Content{std::string(hash), file});
   if (is_new || known->second.hash == hash) return;
   throw core::InputError(
@@ -108,13 +108,13 @@ void RecordCopy::Batch::clear() {
 }
 
 RecordCopy::RecordCopy(const std::vector<Source>& sources, const SQLite::Database& out,
-                       DataSeen& data, const Tell& tell)
+                       DataHashes& data, const OnProgress& on_progress)
     : sources_(sources),
       data_(data),
-      tell_(tell),
-      others_(other_columns(out)),
+      on_progress_(on_progress),
+      other_columns_(other_columns(out)),
       parts_(parts_of(out)),
-      record_writer_(out, "record", columns_with(others_)) {
+      record_writer_(out, "record", columns_with(other_columns_)) {
   for (const Part& part : parts_) {
     std::vector<std::string> columns{"record"};
     columns.insert(columns.end(), part.columns.begin(), part.columns.end());
@@ -162,19 +162,19 @@ void RecordCopy::prepare_parts() {
 RecordCounts RecordCopy::copy(const std::vector<std::string>& runs, const std::string& run) {
   const std::string select =
       fmt::format("SELECT {}, {} FROM record WHERE run = ?1 ORDER BY configuration, device",
-                  fmt::join(named, ", "), fmt::join(others_, ", "));
+                  fmt::join(named_columns, ", "), fmt::join(other_columns_, ", "));
   MergedRows rows(sources_, select, 2, is_before, runs);
   RecordCounts counts;
   last_configuration_.clear();
   std::array<Batch, 2> batches;
   for (Batch& each : batches) each.parts.resize(parts_.size());
   std::future<void> writing;  // its destructor waits for the end of the task
-  for (std::size_t turn = 0;; turn = 1 - turn) {
-    fill(batches[turn], rows, run, counts);
+  for (std::size_t current = 0;; current = 1 - current) {
+    fill(batches[current], rows, run, counts);
     if (writing.valid()) writing.get();
-    if (tell_) tell_(static_cast<std::uint64_t>(seq_));
-    if (batches[turn].count == 0) return counts;
-    writing = std::async(std::launch::async, [this, &batch = batches[turn]] { write(batch); });
+    if (on_progress_) on_progress_(static_cast<std::uint64_t>(seq_));
+    if (batches[current].count == 0) return counts;
+    writing = std::async(std::launch::async, [this, &batch = batches[current]] { write(batch); });
   }
 }
 
@@ -202,7 +202,8 @@ void RecordCopy::add(Batch& batch, const Query& record, std::size_t source,
   batch.records.add(++seq_);
   batch.records.add(std::string_view(run));
   batch.records.add(record, 0, column::seq);
-  batch.records.add(record, static_cast<int>(named.size()), static_cast<int>(others_.size()));
+  batch.records.add(record, static_cast<int>(named_columns.size()),
+                    static_cast<int>(other_columns_.size()));
   std::string data = std::string(record.text(column::suite));
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     if (!queries_[source][i]) continue;
@@ -220,7 +221,7 @@ void RecordCopy::add(Batch& batch, const Query& record, std::size_t source,
     part.reset();
   }
   if (const std::string_view hash = record.text(column::data_hash); !hash.empty()) {
-    data_.saw(data, hash, sources_[source].file);
+    data_.add(data, hash, sources_[source].file);
   }
 }
 
@@ -228,14 +229,14 @@ void RecordCopy::count(const MergedRows& rows, const MergedRows::Row& row,
                        RecordCounts& counts) const {
   const Query& taken = rows.query(row.source);
   ++counts.records[std::string(taken.text(column::device))];
-  for (const std::size_t each : row.rest) {
+  for (const std::size_t each : row.other_sources) {
     const Query& other = rows.query(each);
     if (other.text(column::seal) == taken.text(column::seal)) {
       ++counts.repeated;
     } else if (has_fault(other) && !has_fault(taken)) {
       ++counts.injected;
     } else if (rank_of(other.text(column::outcome)) > rank_of(taken.text(column::outcome))) {
-      ++counts.measured_anew;
+      ++counts.remeasured;
     } else {
       ++counts.not_chosen;
     }
@@ -243,10 +244,10 @@ void RecordCopy::count(const MergedRows& rows, const MergedRows::Row& row,
     if (hash.empty() || taken.text(column::data_hash).empty() ||
         hash == taken.text(column::data_hash))
       continue;
-    DataSeen seen;
+    DataHashes seen;
     const std::string name(taken.text(column::configuration));
-    seen.saw(name, taken.text(column::data_hash), sources_[row.source].file);
-    seen.saw(name, hash, sources_[each].file);
+    seen.add(name, taken.text(column::data_hash), sources_[row.source].file);
+    seen.add(name, hash, sources_[each].file);
   }
 }
 

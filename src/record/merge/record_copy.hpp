@@ -18,10 +18,10 @@ namespace triptych::record {
 
 // Remembers the content hash of each data set, and the store in which it was seen first. Each merge
 // has one such object.
-class DataSeen {
+class DataHashes {
  public:
   // Throws InputError if the name was seen before with another hash.
-  void saw(const std::string& name, std::string_view hash, const std::filesystem::path& file);
+  void add(const std::string& name, std::string_view hash, const std::filesystem::path& file);
 
  private:
   struct Content {
@@ -38,20 +38,20 @@ struct RecordCounts {
   std::map<std::string, std::uint64_t> records;  // by device
   // Records that were not copied because another record of the same configuration and device was
   // copied:
-  std::uint64_t repeated = 0;       // identical to the other record
-  std::uint64_t injected = 0;       // has an injected fault, but the other record has none
-  std::uint64_t not_chosen = 0;     // different, but with an equally good outcome
-  std::uint64_t measured_anew = 0;  // failed or was skipped, but the other record was measured
+  std::uint64_t repeated = 0;    // identical to the other record
+  std::uint64_t injected = 0;    // has an injected fault, but the other record has none
+  std::uint64_t not_chosen = 0;  // different, but with an equally good outcome
+  std::uint64_t remeasured = 0;  // failed or was skipped, but the other record was measured
 };
 
 class RecordCopy {
  public:
   // Called with the number of records copied so far.
-  using Tell = std::function<void(std::uint64_t records)>;
+  using OnProgress = std::function<void(std::uint64_t records)>;
 
   // All arguments must outlive this object. `out` must not contain records yet.
-  RecordCopy(const std::vector<Source>& sources, const SQLite::Database& out, DataSeen& data,
-             const Tell& tell);
+  RecordCopy(const std::vector<Source>& sources, const SQLite::Database& out, DataHashes& data,
+             const OnProgress& on_progress);
 
   // Copies the records of the runs `runs` into the run `run`. `runs` contains the id of a run for
   // each source (empty if the source has no run). Throws InputError if two data sets with the same
@@ -84,9 +84,10 @@ class RecordCopy {
   void write(const Batch& batch);
 
   const std::vector<Source>& sources_;
-  DataSeen& data_;
-  const Tell& tell_;
-  std::vector<std::string> others_;  // columns of a record that are copied without being examined
+  DataHashes& data_;
+  const OnProgress& on_progress_;
+  std::vector<std::string>
+      other_columns_;  // columns of a record that are copied without being examined
   std::vector<Part> parts_;
   std::vector<std::vector<std::optional<Query>>> queries_;  // by source and part; nullopt: no rows
   RowWriter record_writer_;

@@ -6,7 +6,7 @@
 namespace triptych::record {
 namespace {
 
-constexpr std::size_t several = 32;
+constexpr std::size_t rows_per_insert = 32;
 
 std::string insert_of(std::string_view table, const std::vector<std::string>& columns,
                       std::size_t rows) {
@@ -38,12 +38,12 @@ RowBatch::Cell RowBatch::cell_of(const Query& row, int column) {
       return sqlite3_value_double(value);
     default: {  // no column of a record is a blob
       const auto* text = reinterpret_cast<const char*>(sqlite3_value_text(value));
-      return kept({text, static_cast<std::size_t>(sqlite3_value_bytes(value))});
+      return append_text({text, static_cast<std::size_t>(sqlite3_value_bytes(value))});
     }
   }
 }
 
-RowBatch::Text RowBatch::kept(std::string_view text) {
+RowBatch::Text RowBatch::append_text(std::string_view text) {
   const std::size_t begin = texts_.size();
   texts_ += text;
   return {begin, text.size()};
@@ -64,14 +64,14 @@ void RowBatch::bind(Query& statement, int index, std::size_t cell) const {
 RowWriter::RowWriter(const SQLite::Database& database, std::string_view table,
                      const std::vector<std::string>& columns)
     : columns_(columns.size()),
-      several_(database, insert_of(table, columns, several)),
-      one_(database, insert_of(table, columns, 1)) {}
+      insert_several_(database, insert_of(table, columns, rows_per_insert)),
+      insert_one_(database, insert_of(table, columns, 1)) {}
 
 void RowWriter::write(const RowBatch& rows) {
   for (std::size_t cell = 0; cell < rows.cells();) {
-    const bool enough = rows.cells() - cell >= several * columns_;
-    const std::size_t end = cell + (enough ? several : 1) * columns_;
-    Query& insert = enough ? several_ : one_;
+    const bool is_full = rows.cells() - cell >= rows_per_insert * columns_;
+    const std::size_t end = cell + (is_full ? rows_per_insert : 1) * columns_;
+    Query& insert = is_full ? insert_several_ : insert_one_;
     for (int index = 1; cell < end; ++index, ++cell) rows.bind(insert, index, cell);
     insert.execute();
   }

@@ -18,7 +18,7 @@ namespace triptych::record {
 class RowBatch {
  public:
   void add(std::int64_t number) { cells_.emplace_back(number); }
-  void add(std::string_view text) { cells_.push_back(kept(text)); }
+  void add(std::string_view text) { cells_.push_back(append_text(text)); }
   void add(const Query& row, int first_column, int columns);
   void clear();
 
@@ -36,7 +36,7 @@ class RowBatch {
   using Cell = std::variant<std::nullptr_t, std::int64_t, double, Text>;
 
   [[nodiscard]] Cell cell_of(const Query& row, int column);
-  [[nodiscard]] Text kept(std::string_view text);
+  [[nodiscard]] Text append_text(std::string_view text);
 
   std::vector<Cell> cells_;
   std::string texts_;
@@ -53,8 +53,8 @@ class RowWriter {
 
  private:
   std::size_t columns_;
-  Query several_;  // inserts several rows per execution, which is faster
-  Query one_;
+  Query insert_several_;  // inserts several rows per execution, which is faster
+  Query insert_one_;
 };
 
 }  // namespace triptych::record

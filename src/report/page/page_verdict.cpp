@@ -115,8 +115,8 @@ std::string gate_command(std::span<const PlanData> plans) {
   for (const PlanData& plan : plans) {
     const std::string& typed = plan.verdict->argument;
     words.push_back(typed.empty() ? record::plan_argument(plan.name) : typed);
-    for (const record::Beginning& begun : plan.run->begun) {
-      devices.insert(begun.asked.begin(), begun.asked.end());
+    for (const record::RunStart& begun : plan.run->begun) {
+      devices.insert(begun.requested.begin(), begun.requested.end());
     }
   }
   for (const std::string& device : devices) words.insert(words.end(), {"--device", device});

@@ -101,7 +101,7 @@ std::string stage_text(const Reason& reason) {
 
 std::string text_of(const Reason& reason) {
   std::string text = stage_text(reason) + cause_text(reason);
-  if (!reason.last_words.empty()) text += "; the worker's last output: " + reason.last_words;
+  if (!reason.last_output.empty()) text += "; the worker's last output: " + reason.last_output;
   if (reason.not_tried) {
     text += fmt::format(
         "; this configuration was not tried, because other configurations{}{} ended in the same "

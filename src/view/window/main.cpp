@@ -106,7 +106,7 @@ class Loop {
       : window_(window), session_(session), screen_(screen), interrupts_(interrupts) {}
 
   void run() {
-    while (!window_.is_closed() && !interrupts_.take()) {
+    while (!window_.is_closed() && !interrupts_.received_signal()) {
       sleep();
       if (session_.update(Session::Clock::now())) frames_due_ = frames_after_input;
       const bool capture = !session_.request().screenshot.empty() && session_.is_settled();

@@ -18,16 +18,16 @@ using testing::StartsWith;
 using testing::ThrowsMessage;
 
 TEST(ForeignError, OurErrorsAreUnchanged) {
-  EXPECT_EQ(naming("a.txt", [] { return 7; }), 7);
-  EXPECT_THAT([] { naming("a.txt", [] { throw NotSupported("no device"); }); },
+  EXPECT_EQ(with_error_context("a.txt", [] { return 7; }), 7);
+  EXPECT_THAT([] { with_error_context("a.txt", [] { throw NotSupported("no device"); }); },
               ThrowsMessage<NotSupported>("no device"));
 }
 
 TEST(ForeignError, OtherExceptionsAreConvertedAndNameTheFile) {
   const std::map<int, int> none;
-  EXPECT_THAT([&] { (void)naming("a.txt", [&] { return none.at(1); }); },
+  EXPECT_THAT([&] { (void)with_error_context("a.txt", [&] { return none.at(1); }); },
               ThrowsMessage<InputError>(StartsWith("a.txt: cannot be used (map::at")));
-  EXPECT_THAT([] { naming("a.txt", [] { throw std::bad_alloc(); }); },
+  EXPECT_THAT([] { with_error_context("a.txt", [] { throw std::bad_alloc(); }); },
               ThrowsMessage<IoError>("a.txt: not enough memory is available"));
 }
 
@@ -36,12 +36,14 @@ TEST(ForeignError, AFileSystemErrorNamesItsOwnFile) {
     throw std::filesystem::filesystem_error("status", "b.txt",
                                             std::make_error_code(std::errc::permission_denied));
   };
-  EXPECT_THAT([&] { naming("", fails); }, ThrowsMessage<IoError>("b.txt: Permission denied"));
+  EXPECT_THAT([&] { with_error_context("", fails); },
+              ThrowsMessage<IoError>("b.txt: Permission denied"));
 }
 
 TEST(ForeignError, WithoutAFileItIsAnInternalError) {
-  EXPECT_THAT([] { naming("", [] { throw std::logic_error("basic_string::replace"); }); },
-              ThrowsMessage<Error>(HasSubstr("internal error in Triptych (basic_string")));
+  EXPECT_THAT(
+      [] { with_error_context("", [] { throw std::logic_error("basic_string::replace"); }); },
+      ThrowsMessage<Error>(HasSubstr("internal error in Triptych (basic_string")));
 }
 
 }  // namespace

@@ -38,8 +38,8 @@ TEST(Text, InvalidUtf8IsNotALine) {
 
 TEST(JsonText, ReplacesInvalidUtf8) {
   EXPECT_EQ(json_text(Json{{"a", "x\xff"}}), "{\"a\":\"x\uFFFD\"}");
-  EXPECT_EQ(mended_utf8("größe"), "größe");
-  EXPECT_EQ(mended_utf8("x\xff"), "x\uFFFD");
+  EXPECT_EQ(repaired_utf8("größe"), "größe");
+  EXPECT_EQ(repaired_utf8("x\xff"), "x\uFFFD");
 }
 
 TEST(JsonText, EscapesHiddenCharacters) {

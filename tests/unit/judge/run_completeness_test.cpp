@@ -25,14 +25,14 @@ class RunCompletenessTest : public GateTest {
  protected:
   RunCompletenessTest() { checks_ = {Check::image, Check::counters}; }
 
-  void begin(const std::string& run, record::Beginning begun = {}) {
+  void begin(const std::string& run, record::RunStart begun = {}) {
     if (begun.devices.empty()) begun.devices = all_devices;
     if (begun.found.empty()) begun.found = all_devices;
     begun.host = "host1";
     store_.begin(run, begun, configurations_);
   }
   // Adds a run whose beginning is recorded as `begun`.
-  void add_planned_run(const std::string& run, const record::Beginning& begun = {}) {
+  void add_planned_run(const std::string& run, const record::RunStart& begun = {}) {
     add_run(run);
     begin(run, begun);
   }
@@ -151,8 +151,8 @@ TEST_F(RunCompletenessTest, TheReasonForAnUnmeasuredRequiredDeviceIsReported) {
 // which the missing device was accepted.
 TEST_F(RunCompletenessTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
   accept_planned_run();
-  const record::Beginning without_gl{.found = {all_devices[1], all_devices[2]},
-                                     .devices = {all_devices[1], all_devices[2]}};
+  const record::RunStart without_gl{.found = {all_devices[1], all_devices[2]},
+                                    .devices = {all_devices[1], all_devices[2]}};
   add_planned_run("run", without_gl);
   execute_sql("DELETE FROM record WHERE run = 'run' AND device = 'gl:llvmpipe-egl'");
   execute_sql("DELETE FROM device WHERE run = 'run' AND id = 'gl:llvmpipe-egl'");
@@ -182,14 +182,14 @@ TEST_F(RunCompletenessTest, AMissingDeviceOfThisKindOfMachineCannotBeJudged) {
 // the run requested only some devices.
 TEST_F(RunCompletenessTest, OtherMachinesNeedNotHaveTheDevice) {
   accept_planned_run();
-  const record::Beginning vulkan_only{
-      .asked = {"vulkan:*"}, .found = {all_devices[2]}, .devices = {all_devices[2]}};
+  const record::RunStart vulkan_only{
+      .requested = {"vulkan:*"}, .found = {all_devices[2]}, .devices = {all_devices[2]}};
   add_planned_run("asked", vulkan_only);
   execute_sql("DELETE FROM record WHERE run = 'asked' AND device <> 'vulkan:lavapipe'");
   execute_sql("DELETE FROM device WHERE run = 'asked' AND id <> 'vulkan:lavapipe'");
   EXPECT_THAT(undecided_lines(gate("asked")), IsEmpty());
   for (const std::string& id : all_devices) driver_versions_[id] = "99";
-  const record::Beginning newer{.found = {all_devices[2]}, .devices = {all_devices[2]}};
+  const record::RunStart newer{.found = {all_devices[2]}, .devices = {all_devices[2]}};
   add_planned_run("newer", newer);
   execute_sql("DELETE FROM record WHERE run = 'newer' AND device <> 'vulkan:lavapipe'");
   execute_sql("DELETE FROM device WHERE run = 'newer' AND id <> 'vulkan:lavapipe'");
@@ -208,7 +208,7 @@ TEST_F(RunCompletenessTest, AFailedListingCannotBeJudgedAndIsShown) {
   request_.without_devices = {"vulkan"};
   EXPECT_EQ(gate("run").exit_code(), core::ExitCode::pass);
   request_.without_devices.clear();
-  add_planned_run("others", {.asked = {"gl:*", "opencl:*"},
+  add_planned_run("others", {.requested = {"gl:*", "opencl:*"},
                              .found = all_devices,
                              .devices = all_devices,
                              .unusable = {crashed}});
@@ -218,7 +218,7 @@ TEST_F(RunCompletenessTest, AFailedListingCannotBeJudgedAndIsShown) {
   // a glob, some devices may be missing.
   for (const bool whole : {true, false}) {
     const std::string run = whole ? "named" : "glob";
-    add_planned_run(run, {.asked = {whole ? "vulkan:lavapipe" : "vulkan:*"},
+    add_planned_run(run, {.requested = {whole ? "vulkan:lavapipe" : "vulkan:*"},
                           .found = all_devices,
                           .devices = all_devices,
                           .unusable = {crashed}});

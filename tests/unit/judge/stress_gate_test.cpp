@@ -340,8 +340,8 @@ TEST_F(ExpectationTest, BoundsOfBothAddUp) {
       make_image(width, height, [](int x, int y) { return position_value(x, y) + 0.5F; }));
   add("data=c",
       make_image(width, height, [](int x, int y) { return position_value(x, y) + 0.75F; }));
-  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}, .to_the_bit = false}), 0);
-  EXPECT_EQ(judge({.changed = {{"data", "c"}}, .to_the_bit = false}).fact("by"), "bounds");
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}, .bit_identical = false}), 0);
+  EXPECT_EQ(judge({.changed = {{"data", "c"}}, .bit_identical = false}).fact("by"), "bounds");
 }
 
 TEST_F(ExpectationTest, ParticlesMayHaveOtherNumbers) {
@@ -352,7 +352,7 @@ TEST_F(ExpectationTest, ParticlesMayHaveOtherNumbers) {
   other.ids = {5, 4, 3, 2, 1, 0};
   add("data=a", image);
   add("data=b", other);
-  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}, .same_ids = false}), 0);
+  EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}, .compare_ids = false}), 0);
   EXPECT_EQ(differing_pixels({.changed = {{"data", "b"}}}), 6);
 }
 
@@ -363,7 +363,7 @@ TEST_F(ExpectationTest, OneColourMustMatchExactly) {
   image.rgba[21] = std::nextafter(0.25F, 1.0F);
   add("data=b", image);
   StressRun run(store_, records_);
-  const record::Expectation expected{"a test", record::OneColour{{0.25F, 0.25F, 0.25F, 1.0F}}};
+  const record::Expectation expected{"a test", record::UniformColour{{0.25F, 0.25F, 0.25F, 1.0F}}};
   EXPECT_FALSE(violation_of(expected, records_[0], run, {}));
   const auto wrong = violation_of(expected, records_[1], run, {});
   ASSERT_TRUE(wrong);

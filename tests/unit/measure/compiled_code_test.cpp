@@ -10,8 +10,8 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "measure/code/capture_stderr.hpp"
 #include "measure/code/printed_kernels.hpp"
-#include "measure/code/standard_error.hpp"
 #include "measure/system/compile_only.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -133,14 +133,14 @@ TEST(StandardError, IsCapturedAndReturned) {
   const auto write = [](const std::string& text) {
     ASSERT_EQ(::write(STDERR_FILENO, text.data(), text.size()), static_cast<ssize_t>(text.size()));
   };
-  EXPECT_EQ(standard_error_of([&] { write("from a driver\n"); }), "from a driver\n");
-  EXPECT_EQ(standard_error_of([] {}), "");
+  EXPECT_EQ(capture_stderr([&] { write("from a driver\n"); }), "from a driver\n");
+  EXPECT_EQ(capture_stderr([] {}), "");
 }
 
 // Rust's runtime writes to the file descriptor, whereas Mesa writes single words to the C stream
 // stderr.
 TEST(StandardError, KeepsTheOrderOfWritesToTheStreamAndTheDescriptor) {
-  const std::string both = standard_error_of([] {
+  const std::string both = capture_stderr([] {
     for (const char* word : {"shader: ", "a ", "kernel\n"}) std::fputs(word, stderr);
     ASSERT_EQ(::write(STDERR_FILENO, "a name\n", 7), 7);
     std::fputs("last", stderr);

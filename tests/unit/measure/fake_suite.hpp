@@ -62,10 +62,10 @@ class FakeSuite final : public Suite {
       throw core::InputError({.file = "torn", .line = 3}, "the file ends here");
     }
     if (configuration.at("data") == "slow") {
-      tell({.what = "slow", .share = 0});
+      report_loading({.what = "slow", .share = 0});
       std::this_thread::sleep_for(std::chrono::milliseconds(2100));
-      tell({.what = "slow", .share = 0.5});
-      tell({.what = "slow", .share = 1});
+      report_loading({.what = "slow", .share = 0.5});
+      report_loading({.what = "slow", .share = 1});
     }
     auto grid = std::make_shared<scene::VoxelGrid>();
     grid->name = configuration.at("data");
@@ -115,38 +115,38 @@ class FakeSuite final : public Suite {
       {.name = "technique",
        .kind = FactorKind::choice,
        .levels = {"raycast", "raycast_fragment"},
-       .standard = "raycast",
-       .of_scene = false,
+       .default_value = "raycast",
+       .determines_image = false,
        .automatic = {"raycast", "raycast_fragment"},
        .summary = "how it is drawn"},
-      {.name = "data", .standard = "cube", .summary = "what is drawn"},
+      {.name = "data", .default_value = "cube", .summary = "what is drawn"},
       {.name = "sampler",
        .kind = FactorKind::choice,
        .levels = {"hardware", "manual"},
-       .standard = "auto",
-       .of_scene = false,
+       .default_value = "auto",
+       .determines_image = false,
        .summary = "who interpolates"},
       {.name = "step",
        .kind = FactorKind::number,
        .minimum = 0.01,
        .maximum = 16,
-       .standard = "1",
+       .default_value = "1",
        .summary = "in voxels"},
       {.name = "skip",
        .kind = FactorKind::choice,
        .levels = {"none", "bricks"},
-       .standard = "bricks",
-       .of_scene = false,
+       .default_value = "bricks",
+       .determines_image = false,
        .summary = "empty space"},
       {.name = "ert",
        .kind = FactorKind::number,
        .minimum = 0,
        .maximum = 0.5,
-       .standard = "0",
-       .of_scene = false,
+       .default_value = "0",
+       .determines_image = false,
        .summary = "early ray termination"},
-      {.name = "camera", .standard = "orbit_y:0/8", .summary = "view"},
-      {.name = "viewport", .standard = "16", .summary = "pixels"},
+      {.name = "camera", .default_value = "orbit_y:0/8", .summary = "view"},
+      {.name = "viewport", .default_value = "16", .summary = "pixels"},
   };
 };
 

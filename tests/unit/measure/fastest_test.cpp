@@ -21,7 +21,8 @@ class FastestTest : public testing::Test {
     record::Record record;
     record.device = device;
     record.outcome = record::Outcome::measured;
-    for (const Factor& factor : suite_.factors()) record.factors[factor.name] = factor.standard;
+    for (const Factor& factor : suite_.factors())
+      record.factors[factor.name] = factor.default_value;
     record.factors["technique"] = technique;
     record.factors["data"] = data;
     record.wall_ns = wall_ns;
@@ -59,7 +60,7 @@ TEST_F(FastestTest, TheFasterOfTwoMeasurementsCounts) {
   add("raycast_fragment", {4e6});
   EXPECT_THAT(text(), HasSubstr(": raycast is the fastest, minimum 1.000 ms"));
   EXPECT_THAT(text(), HasSubstr("; raycast_fragment takes 2.00 times as long"));
-  EXPECT_EQ(answers().at(0).contestants.size(), 2U);
+  EXPECT_EQ(answers().at(0).candidates.size(), 2U);
 }
 
 TEST_F(FastestTest, IsChosenForEachSceneAndDevice) {
@@ -111,28 +112,28 @@ TEST_F(FastestTest, ReportsUnsupportedTechniques) {
 TEST_F(FastestTest, CandidatesForTheFastestAreMeasuredAgain) {
   const Plan plan = default_plan(suite_, {{"technique", {"auto"}}});
   ASSERT_EQ(plan.configurations.size(), 2U);
-  std::vector<std::size_t> tried;
-  const auto with = [&](double second) {
-    tried.clear();
-    return try_for_fastest(plan, suite_, [&](const Plan& trial) {
+  std::vector<std::size_t> trial_sizes;
+  const auto fastest_if_other_takes = [&](double second) {
+    trial_sizes.clear();
+    return find_fastest(plan, suite_, [&](const Plan& trial) {
       records_.clear();
       for (const Configuration& each : trial.configurations) {
         const bool first = each.at("technique") == "raycast";
         // In the first trial, raycast takes 1.5 ms, as if another program had disturbed it. In
         // later trials, it takes 0.9 ms.
-        add(each.at("technique"), {first ? (tried.empty() ? 1.5e6 : 0.9e6) : second}).technique =
-            each.at("technique");
+        add(each.at("technique"), {first ? (trial_sizes.empty() ? 1.5e6 : 0.9e6) : second})
+            .technique = each.at("technique");
       }
-      tried.push_back(trial.configurations.size());
+      trial_sizes.push_back(trial.configurations.size());
       return records_;
     });
   };
-  const FastestTried near = with(1e6);
-  EXPECT_EQ(tried, (std::vector<std::size_t>{2, 2}));
-  EXPECT_EQ(near.answers.at(0).contestants.at(0).record->technique, "raycast");
-  const FastestTried far = with(9e6);
-  EXPECT_EQ(tried, (std::vector<std::size_t>{2}));
-  EXPECT_EQ(far.answers.at(0).contestants.at(0).record, far.records.data());
+  const FastestTrials similar = fastest_if_other_takes(1e6);
+  EXPECT_EQ(trial_sizes, (std::vector<std::size_t>{2, 2}));
+  EXPECT_EQ(similar.answers.at(0).candidates.at(0).record->technique, "raycast");
+  const FastestTrials slower = fastest_if_other_takes(9e6);
+  EXPECT_EQ(trial_sizes, (std::vector<std::size_t>{2}));
+  EXPECT_EQ(slower.answers.at(0).candidates.at(0).record, slower.records.data());
 }
 
 }  // namespace

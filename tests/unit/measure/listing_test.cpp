@@ -58,7 +58,7 @@ TEST(ChooseDevices, OnlyAsterisksAndQuestionMarksAreSpecial) {
   EXPECT_THAT(choose_devices(some_listing(), {"gl:?oftp*"}), ElementsAre("gl:softpipe"));
   for (const std::string glob : {"gl:[s]*", "gl:s\\*"}) {
     EXPECT_THAT(refusal(some_listing(), glob), HasSubstr("no device matches " + glob));
-    EXPECT_FALSE((record::Beginning{.asked = {glob}}.asks_for("gl:softpipe"))) << glob;
+    EXPECT_FALSE((record::RunStart{.requested = {glob}}.requests_device("gl:softpipe"))) << glob;
   }
 }
 

@@ -57,16 +57,16 @@ TEST(Calibrate, RejectsAClockThatJitters) {
 }
 
 TEST(Calibrate, ToleratesOneLateWakeUpButNoOtherOutlier) {
-  const auto odd_one = [](double wall_ms, double device_ms) {
+  const auto plausible_with_one_outlier = [](double wall_ms, double device_ms) {
     return verdict_on([=](int n) {
              return n == 5 ? frame_of(wall_ms * millisecond, device_ms * millisecond)
                            : frame_of(30 * millisecond, 29.8 * millisecond);
            })
         .trusted;
   };
-  EXPECT_TRUE(odd_one(38, 29.8));
-  EXPECT_FALSE(odd_one(30, 35));
-  EXPECT_FALSE(odd_one(30, 0));
+  EXPECT_TRUE(plausible_with_one_outlier(38, 29.8));
+  EXPECT_FALSE(plausible_with_one_outlier(30, 35));
+  EXPECT_FALSE(plausible_with_one_outlier(30, 0));
 }
 
 TEST(Calibrate, ReportsADeviceWithoutTimes) {

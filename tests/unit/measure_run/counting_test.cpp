@@ -19,11 +19,11 @@ namespace {
 
 // Runs the helper program under the emulator, and returns its output.
 std::string counted(const std::string& loops, std::string_view device_files = "/nowhere",
-                    const char* how = "count") {
+                    const char* mode = "count") {
   const auto& emulator = std::get<Emulator>(find_emulator());
   std::vector<std::string> variables = emulator.environment;
   variables.emplace_back("PATH=/usr/bin:/bin");
-  Process process(emulated(emulator, {MEASURE_RUN_HELPER, how, loops}, device_files), variables);
+  Process process(emulated(emulator, {MEASURE_RUN_HELPER, mode, loops}, device_files), variables);
   const auto exit = process.wait(std::chrono::seconds(60));
   EXPECT_EQ(exit.value_or(Exit{.code = -1}).code, 0);
   std::string text(4096, ' ');

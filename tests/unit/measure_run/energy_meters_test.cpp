@@ -47,7 +47,7 @@ void take_a_while() {
 
 TEST_F(EnergyMetersTest, WithoutMetersNothingIsReportedOrDrawn) {
   EXPECT_THAT(meters().names(), IsEmpty());
-  EXPECT_THAT(meters().of_a_frame([] { ADD_FAILURE() << "a frame was drawn"; }), IsEmpty());
+  EXPECT_THAT(meters().energy_per_frame([] { ADD_FAILURE() << "a frame was drawn"; }), IsEmpty());
 }
 
 TEST_F(EnergyMetersTest, DuplicateAndUnreadableMetersAreIgnored) {
@@ -74,7 +74,7 @@ TEST_F(EnergyMetersTest, CountsBetweenMeterUpdates) {
   zone("intel-rapl:0", "package-0", "1000");
   int drawn = 0;
   std::optional<Stopwatch> since_the_first;
-  const record::Counts told = meters().of_a_frame([&] {
+  const record::Counts energy = meters().energy_per_frame([&] {
     take_a_while();
     ++drawn;
     if (drawn % 3 == 2) {
@@ -82,7 +82,7 @@ TEST_F(EnergyMetersTest, CountsBetweenMeterUpdates) {
       zone("intel-rapl:0", "package-0", std::to_string(1000 + 90 * drawn));
     }
   });
-  EXPECT_THAT(told, ElementsAre(Pair("package-0", 90)));
+  EXPECT_THAT(energy, ElementsAre(Pair("package-0", 90)));
   ASSERT_TRUE(since_the_first);
   EXPECT_GE(since_the_first->ns(), 100e6);
 }
@@ -90,34 +90,34 @@ TEST_F(EnergyMetersTest, CountsBetweenMeterUpdates) {
 TEST_F(EnergyMetersTest, ACounterMayWrap) {
   zone("intel-rapl:0", "package-0", "9000");
   int drawn = 0;
-  const record::Counts told = meters().of_a_frame([&] {
+  const record::Counts energy = meters().energy_per_frame([&] {
     take_a_while();
     zone("intel-rapl:0", "package-0", std::to_string((9000 + 300 * ++drawn) % 10000));
   });
-  EXPECT_THAT(told, ElementsAre(Pair("package-0", 300)));
+  EXPECT_THAT(energy, ElementsAre(Pair("package-0", 300)));
 }
 
 TEST_F(EnergyMetersTest, AMeterThatDoesNotChangeIsIgnoredAfterASecond) {
   zone("intel-rapl:0", "package-0", "1000");
   zone("intel-rapl:1", "package-1", "1000");
   int drawn = 0;
-  const record::Counts told = meters().of_a_frame([&] {
+  const record::Counts energy = meters().energy_per_frame([&] {
     take_a_while();
     zone("intel-rapl:0", "package-0", std::to_string(1000 + ++drawn));
   });
-  EXPECT_THAT(told, ElementsAre(Pair("package-0", 1)));
+  EXPECT_THAT(energy, ElementsAre(Pair("package-0", 1)));
   EXPECT_LE(drawn, 84);
 }
 
 TEST_F(EnergyMetersTest, TwoLongFramesAreEnough) {
   zone("intel-rapl:0", "package-0", "1000");
   int drawn = 0;
-  const record::Counts told = meters().of_a_frame([&] {
+  const record::Counts energy = meters().energy_per_frame([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(520));
     zone("intel-rapl:0", "package-0", std::to_string(1000 + 7 * ++drawn));
   });
   EXPECT_EQ(drawn, 2);
-  EXPECT_THAT(told, ElementsAre(Pair("package-0", 7)));
+  EXPECT_THAT(energy, ElementsAre(Pair("package-0", 7)));
 }
 
 TEST_F(EnergyMetersTest, NvidiaMetersReportMillijoules) {
@@ -127,11 +127,11 @@ TEST_F(EnergyMetersTest, NvidiaMetersReportMillijoules) {
   ASSERT_NE(library, nullptr);
   const auto take =
       reinterpret_cast<void (*)(unsigned long long)>(::dlsym(library, "fake_nvml_take"));
-  const record::Counts told = meters.of_a_frame([&] {
+  const record::Counts energy = meters.energy_per_frame([&] {
     take_a_while();
     take(3);
   });
-  EXPECT_THAT(told, ElementsAre(Pair("nvidia-0", 3000)));
+  EXPECT_THAT(energy, ElementsAre(Pair("nvidia-0", 3000)));
 }
 
 TEST_F(EnergyMetersTest, RecordsOfTimedLoopsContainEnergy) {

@@ -164,9 +164,9 @@ TEST_F(PlantedCache, AParentInWhichOthersCanRenameIsRejected) {
 
 TEST(ForbidsMeasuring, NamesLpPerf) {
   const Variable unset("LP_PERF");
-  EXPECT_EQ(forbids_measuring(), std::nullopt);
+  EXPECT_EQ(reason_not_to_measure(), std::nullopt);
   const Variable set("LP_PERF", "no_rast");
-  EXPECT_THAT(forbids_measuring().value(), testing::HasSubstr("LP_PERF=no_rast"));
+  EXPECT_THAT(reason_not_to_measure().value(), testing::HasSubstr("LP_PERF=no_rast"));
 }
 
 }  // namespace

@@ -69,15 +69,15 @@ TEST_F(EquivalentsOf, TerminatedRaysProveNothingAboutLowerThresholds) {
 }
 
 TEST_F(EquivalentsOf, TheReasonNamesTheReplacedLevel) {
-  PlainWork leaps = plain("1", 0);
-  leaps.why["skip"] = "nothing is empty";
-  const auto equivalent = equivalents.find(leaps);
+  PlainWork replaced_skip = plain("1", 0);
+  replaced_skip.why["skip"] = "nothing is empty";
+  const auto equivalent = equivalents.find(replaced_skip);
   ASSERT_TRUE(equivalent);
   EXPECT_EQ(equivalent->reason, "skip: nothing is empty");
 }
 
 // With the fake suite's data `full`, skip=bricks and skip=none do the same work.
-class RunTwins : public RunTest {
+class RunEquivalents : public RunTest {
  protected:
   Plan full(const std::string& data = "full",
             const std::vector<std::string>& skip = {"none", "bricks"}) {
@@ -97,10 +97,10 @@ class RunTwins : public RunTest {
   const std::string none = "camera=random:7,data=full,skip=none,technique=raycast,viewport=8";
 };
 
-TEST_F(RunTwins, CopyTheFramesOfTheFirst) {
+TEST_F(RunEquivalents, CopyTheFramesOfTheFirst) {
   const RunResult result = run(full());
   EXPECT_EQ(result.measured, 2);
-  EXPECT_EQ(result.taken_over, 1);
+  EXPECT_EQ(result.copied, 1);
   auto all = by_key(result);
   ASSERT_TRUE(all.contains(none) && all.contains(bricks));
   const record::Record& first = all[none];
@@ -117,25 +117,25 @@ TEST_F(RunTwins, CopyTheFramesOfTheFirst) {
   EXPECT_TRUE(other.benchmark_json.empty());
 }
 
-TEST_F(RunTwins, AreMeasuredIfTheyDifferInTheScene) {
-  EXPECT_EQ(run(full("cube")).taken_over, 0);
+TEST_F(RunEquivalents, AreMeasuredIfTheyDifferInTheScene) {
+  EXPECT_EQ(run(full("cube")).copied, 0);
 }
 
-TEST_F(RunTwins, AreMeasuredOnRequest) {
+TEST_F(RunEquivalents, AreMeasuredOnRequest) {
   options.protocol.measure_every = true;
-  EXPECT_EQ(run(full()).taken_over, 0);
+  EXPECT_EQ(run(full()).copied, 0);
 }
 
-TEST_F(RunTwins, AreMeasuredIfAFaultIsInjected) {
+TEST_F(RunEquivalents, AreMeasuredIfAFaultIsInjected) {
   options.faults = {{.fault = "half_voxel_shift", .only = {}}};
-  EXPECT_EQ(run(full()).taken_over, 0);
+  EXPECT_EQ(run(full()).copied, 0);
 }
 
 // Untimed runs also reuse the results of equal work: the records contain the same frames.
-TEST_F(RunTwins, ShareImagesOfAnUntimedRun) {
+TEST_F(RunEquivalents, ShareImagesOfAnUntimedRun) {
   options.protocol.timed = false;
   const RunResult result = run(full());
-  EXPECT_EQ(result.taken_over, 1);
+  EXPECT_EQ(result.copied, 1);
   auto all = by_key(result);
   EXPECT_EQ(all[bricks].same_as, none);
   EXPECT_EQ(all[bricks].image, all[none].image);
@@ -143,10 +143,10 @@ TEST_F(RunTwins, ShareImagesOfAnUntimedRun) {
   EXPECT_TRUE(all[none].untimed() && all[bricks].untimed());
 }
 
-TEST_F(RunTwins, AreDrawnByAPlanForImagesOnly) {
+TEST_F(RunEquivalents, AreDrawnByAPlanForImagesOnly) {
   Plan what = full();
   what.checks = {record::Check::image, record::Check::counters};
-  EXPECT_EQ(run(what).taken_over, 0);
+  EXPECT_EQ(run(what).copied, 0);
 }
 
 }  // namespace

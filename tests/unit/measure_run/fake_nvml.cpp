@@ -18,11 +18,11 @@ int nvmlDeviceGetHandleByIndex_v2(unsigned index, void** card) {
   *card = &cards[index];
   return 0;
 }
-int nvmlDeviceGetTotalEnergyConsumption(void* card, unsigned long long* told) {
+int nvmlDeviceGetTotalEnergyConsumption(void* card, unsigned long long* energy) {
   static void* first = nullptr;
   if (first == nullptr) nvmlDeviceGetHandleByIndex_v2(0, &first);
   if (card != first) return 3;  // the error code NVML_ERROR_NOT_SUPPORTED
-  *told = millijoules;
+  *energy = millijoules;
   return 0;
 }
 

@@ -55,7 +55,7 @@ int lines_in(const std::string& file) {
   return count;
 }
 
-int work(const std::string& device) {
+int serve(const std::string& device) {
   const std::string starts = variable("TRIPTYCH_TEST_STARTS");
   if (!starts.empty()) {
     std::ofstream(starts, std::ios::app) << ::getpid() << "\n";
@@ -102,13 +102,13 @@ void (*loop_in_memory(std::uint32_t loops))() {
 }
 
 // Counts `act` three times, and prints the counts in one line each time.
-template <typename Act>
+template <typename Action>
 void print_counts(const measure::InstructionCounter& counter, const std::vector<std::string>& names,
-                  Act act) {
+                  Action action) {
   for (int i = 0; i < 3; ++i) {
     record::Counts counts;
-    static_cast<void>(counter.counting(counts, [&] {
-      act();
+    static_cast<void>(counter.count(counts, [&] {
+      action();
       return 0;
     }));
     std::vector<std::uint64_t> line;
@@ -147,7 +147,7 @@ int count_loop(std::uint32_t loops, bool busy) {
   return 0;
 }
 
-int keeps(pid_t child) {
+int child_survives(pid_t child) {
   measure::Process process({"/bin/true"}, {});
   const bool ended = process.wait(std::chrono::seconds(10)).has_value();
   return ended && ::kill(child, 0) == 0 ? 0 : 1;
@@ -164,6 +164,6 @@ int main(int count, char** arguments) {
   if (part == "count-stride") {
     return count_stride(static_cast<unsigned char>(std::stoul(arguments[2])));
   }
-  if (part == "keeps") return keeps(std::stoi(arguments[2]));
-  return part == "worker" ? work(arguments[2]) : supervise(arguments[0], arguments[2]);
+  if (part == "keeps") return child_survives(std::stoi(arguments[2]));
+  return part == "worker" ? serve(arguments[2]) : supervise(arguments[0], arguments[2]);
 }

@@ -41,15 +41,15 @@ TEST(InjectedFault, ASlowdownIsEveryNthRowTwice) {
 }
 
 TEST(InjectedFault, IsLimitedByLevelsOrByAPattern) {
-  const auto hits = [](const char* only) {
+  const auto applies = [](const char* only) {
     const InjectedFault fault{"slowdown:1", only};
     return !faults_for({&fault, 1}, "data=ball,step=2,technique=raycast", "gl:x").empty();
   };
   for (const char* only : {"", "step=2", "technique=raycast,step=2", "*ball*", "gl:*"}) {
-    EXPECT_TRUE(hits(only)) << only;
+    EXPECT_TRUE(applies(only)) << only;
   }
   for (const char* only : {"step=1", "step=2,skip=none", "raycast", "vulkan:*", ","}) {
-    EXPECT_FALSE(hits(only)) << only;
+    EXPECT_FALSE(applies(only)) << only;
   }
 }
 

@@ -25,8 +25,8 @@ class TurnsTest : public RunTest {
 
   [[nodiscard]] Interleaved open() const { return {options_, a, b}; }
   [[nodiscard]] Configuration configuration() { return small_plan().configurations.front(); }
-  void hold(Interleaved& interleaved, const std::vector<std::string>& plants_b = {}) {
-    interleaved.hold(configuration(), {std::vector<std::string>{}, plants_b}, SideClock::wall);
+  void hold(Interleaved& interleaved, const std::vector<std::string>& faults_b = {}) {
+    interleaved.hold(configuration(), {std::vector<std::string>{}, faults_b}, SideClock::wall);
   }
   static std::vector<Block> blocks(Interleaved& interleaved, int count) {
     std::vector<Block> result;
@@ -62,10 +62,10 @@ TEST_F(TurnsTest, TheDifferenceIsTheLogarithmOfTheRatio) {
   const std::vector<Block> all = blocks(interleaved, 6);
   EXPECT_EQ(interleaved.frames_per_batch(), 1);
   // A block repeats its four batches of 3 ms, two of each side, until it lasts at least 40 ms.
-  EXPECT_EQ(interleaved.times_per_block(), 4);
+  EXPECT_EQ(interleaved.repetitions_per_block(), 4);
   EXPECT_THAT(differences(all, SideClock::wall), Each(DoubleNear(std::log(1.1), 1e-9)));
   EXPECT_THAT(differences(all, SideClock::device), Each(DoubleNear(std::log(1.1), 1e-9)));
-  EXPECT_TRUE(device_clock_holds(all));
+  EXPECT_TRUE(device_times_plausible(all));
 }
 
 TEST_F(TurnsTest, BothOrdersOccurAndFollowFromTheSeed) {
@@ -91,7 +91,7 @@ TEST_F(TurnsTest, ShortFramesAreBatchedAlikeOnBothSides) {
   hold(interleaved);
   // A batch of the faster side lasts a millisecond.
   EXPECT_EQ(interleaved.frames_per_batch(), 10);
-  EXPECT_EQ(interleaved.times_per_block(), 10);  // ten repetitions of four batches fill 40 ms
+  EXPECT_EQ(interleaved.repetitions_per_block(), 10);  // ten repetitions of four batches fill 40 ms
   const Block block = interleaved.block();
   // Times are means over the frames of a batch.
   EXPECT_NEAR(block.a.wall_ns[0], 1e5, 1);
@@ -108,7 +108,7 @@ TEST_F(TurnsTest, ADisturbanceOfPartOfABlockDoesNotCount) {
   options_.least_batch_ns = 1;
   Interleaved interleaved = open();
   hold(interleaved);
-  ASSERT_EQ(interleaved.times_per_block(), 10);
+  ASSERT_EQ(interleaved.repetitions_per_block(), 10);
   EXPECT_THAT(differences(blocks(interleaved, 12), SideClock::wall), Each(DoubleNear(0, 1e-9)));
 }
 
@@ -118,7 +118,7 @@ TEST_F(TurnsTest, MissingAndWrongClocksAreRejected) {
     Interleaved interleaved = open();
     hold(interleaved);
     const std::vector<Block> all = blocks(interleaved, 4);
-    EXPECT_FALSE(device_clock_holds(all));
+    EXPECT_FALSE(device_times_plausible(all));
     EXPECT_FALSE(all.front().b.device_ns);
     EXPECT_TRUE(all.front().a.device_ns);
   }
@@ -127,7 +127,7 @@ TEST_F(TurnsTest, MissingAndWrongClocksAreRejected) {
   EXPECT_FALSE(interleaved.hello(Side::b).clocks.front().trusted);
   EXPECT_TRUE(interleaved.hello(Side::a).clocks.front().trusted);
   hold(interleaved);
-  EXPECT_FALSE(device_clock_holds(blocks(interleaved, 4)));
+  EXPECT_FALSE(device_times_plausible(blocks(interleaved, 4)));
 }
 
 TEST_F(TurnsTest, ACrashAffectsOneConfigurationAndReportsItsSide) {

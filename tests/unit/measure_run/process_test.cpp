@@ -27,7 +27,7 @@ Process shell(const std::string& text) {
 }
 
 // Reads everything that the child writes before it closes the pipe.
-std::string all_from(int fd) {
+std::string read_all(int fd) {
   std::string text;
   std::array<char, 4096> piece{};
   for (;;) {
@@ -49,8 +49,8 @@ bool alive(pid_t pid) {
 TEST(Process, ConnectsRequestsAnswersAndBothOutputs) {
   Process process = shell("read line <&3; echo got $line >&4; echo out; echo err >&2");
   ASSERT_EQ(::write(process.request_fd(), "hi\n", 3), 3);
-  EXPECT_EQ(all_from(process.answer_fd()), "got hi\n");
-  EXPECT_EQ(all_from(process.log_fd()), "out\nerr\n");
+  EXPECT_EQ(read_all(process.answer_fd()), "got hi\n");
+  EXPECT_EQ(read_all(process.log_fd()), "out\nerr\n");
   const auto exit = process.wait(seconds(5));
   ASSERT_TRUE(exit);
   EXPECT_EQ(describe(*exit), "exited with code 0");
@@ -58,11 +58,12 @@ TEST(Process, ConnectsRequestsAnswersAndBothOutputs) {
 
 TEST(Process, PassesOnlyTheGivenDescriptorsAndEnvironment) {
   const FileDescriptor opened(::open("/dev/null", O_RDONLY));
-  const FileDescriptor stray(::dup2(opened.get(), 40));  // neither descriptor is close-on-exec
+  const FileDescriptor inheritable(
+      ::dup2(opened.get(), 40));  // neither descriptor is close-on-exec
   ASSERT_EQ(::setenv("TRIPTYCH_STRAY", "1", 1), 0);
   Process process = shell("for fd in /proc/$$/fd/*; do echo ${fd##*/}; done; echo $TRIPTYCH_STRAY");
   // The child has no other open descriptors. It opened descriptor 5 itself to read the list.
-  EXPECT_EQ(all_from(process.log_fd()), "0\n1\n2\n3\n4\n5\n\n");
+  EXPECT_EQ(read_all(process.log_fd()), "0\n1\n2\n3\n4\n5\n\n");
 }
 
 TEST(Process, ReportsHowItEnded) {
@@ -83,7 +84,7 @@ TEST(Process, DestructionKillsTheWholeGroupAndLeavesNoZombie) {
   pid_t grandchild = 0;
   {
     Process process = shell("sleep 100 4>&- & echo $! >&4; exec 4>&-; wait");
-    grandchild = std::stoi(all_from(process.answer_fd()));
+    grandchild = std::stoi(read_all(process.answer_fd()));
     ASSERT_TRUE(alive(grandchild));
   }
   for (int i = 0; i < 200 && alive(grandchild); ++i) std::this_thread::sleep_for(milliseconds(10));
@@ -96,7 +97,7 @@ TEST(Process, DestructionKillsTheWholeGroupAndLeavesNoZombie) {
 constexpr const char* starts_a_daemon =
     "setsid sh -c 'echo $$ >&4; exec sleep 100 4>&-' & exec 4>&-; ";
 
-bool dies(pid_t pid) {
+bool ends_soon(pid_t pid) {
   for (int i = 0; i < 200 && alive(pid); ++i) std::this_thread::sleep_for(milliseconds(10));
   return !alive(pid);
 }
@@ -105,18 +106,18 @@ TEST(Process, DestructionKillsProcessesThatLeftTheGroup) {
   pid_t daemon = 0;
   {
     Process process = shell(std::string(starts_a_daemon) + "wait");
-    daemon = std::stoi(all_from(process.answer_fd()));
+    daemon = std::stoi(read_all(process.answer_fd()));
     ASSERT_TRUE(alive(daemon));
     ASSERT_NE(::getpgid(daemon), process.pid());
   }
-  EXPECT_TRUE(dies(daemon));
+  EXPECT_TRUE(ends_soon(daemon));
 }
 
 TEST(Process, LeftoverProcessesAreKilledWhenItExits) {
   Process process = shell(starts_a_daemon);
-  const pid_t daemon = std::stoi(all_from(process.answer_fd()));
+  const pid_t daemon = std::stoi(read_all(process.answer_fd()));
   ASSERT_TRUE(process.wait(seconds(5)));
-  EXPECT_TRUE(dies(daemon));
+  EXPECT_TRUE(ends_soon(daemon));
 }
 
 // While two processes run, it is unknown which of them started the daemon, so the daemon is killed
@@ -127,13 +128,13 @@ TEST(Process, LeftoverProcessesAreKilledWithTheLastChild) {
     Process other = shell("sleep 100");
     {
       Process process = shell(starts_a_daemon);
-      daemon = std::stoi(all_from(process.answer_fd()));
+      daemon = std::stoi(read_all(process.answer_fd()));
       ASSERT_TRUE(process.wait(seconds(5)));
     }
     EXPECT_TRUE(alive(daemon));
     EXPECT_TRUE(alive(other.pid()));
   }
-  EXPECT_TRUE(dies(daemon));
+  EXPECT_TRUE(ends_soon(daemon));
 }
 
 // If a program starts a child and then replaces itself with this program, that child may still be
@@ -144,7 +145,7 @@ TEST(Process, EarlierChildrenAreNotKilled) {
 }
 
 TEST(Process, AMissingProgramIsAnIoError) {
-  if (!spawning_tells_of_a_missing_program()) GTEST_SKIP() << spawning_tells_nothing;
+  if (!spawning_reports_a_missing_program()) GTEST_SKIP() << spawning_does_not_report;
   EXPECT_THROW(Process({"/nowhere/triptych"}, {}), core::IoError);
   EXPECT_THROW(Process({}, {}), core::IoError);
 }
@@ -164,19 +165,19 @@ TEST(WorkerLink, AWorkerWithInvalidAnswersIsKilledAndQuoted) {
   WorkerLink link(
       {"/bin/sh", "-c", "echo broken >&2; echo 'no message, only some words' >&4; sleep 100"},
       {"PATH=/usr/bin:/bin"}, interrupts);
-  const auto reply = link.ask(to_message(Start{}), seconds(10));
+  const auto reply = link.send_request(to_message(Start{}), seconds(10));
   const auto* died = std::get_if<WorkerLink::Died>(&reply);
   ASSERT_NE(died, nullptr);
   EXPECT_EQ(died->reason.cause, record::Cause::bad_answer);
   EXPECT_THAT(died->reason.detail, testing::HasSubstr("not a message"));
-  EXPECT_EQ(died->reason.last_words, "broken");
+  EXPECT_EQ(died->reason.last_output, "broken");
 }
 
 TEST(WorkerLink, AnInterruptEndsTheWaiting) {
   InterruptGuard interrupts;
   WorkerLink link({"/bin/sh", "-c", "sleep 100"}, {"PATH=/usr/bin:/bin"}, interrupts);
   ::raise(SIGTERM);
-  EXPECT_THROW(static_cast<void>(link.ask(to_message(Start{}), seconds(10))), Interrupted);
+  EXPECT_THROW(static_cast<void>(link.send_request(to_message(Start{}), seconds(10))), Interrupted);
 }
 
 }  // namespace

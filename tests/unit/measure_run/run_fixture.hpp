@@ -19,7 +19,7 @@ namespace triptych::measure {
 
 // The time limit for tests in which a worker hangs. Workers that do not hang must answer within
 // this time.
-inline constexpr std::chrono::seconds hang_limit{MEASURE_RUN_PATIENCE};
+inline constexpr std::chrono::seconds hang_limit{MEASURE_RUN_HANG_LIMIT_S};
 
 class RunTest : public testing::Test {
  protected:
@@ -44,9 +44,9 @@ class RunTest : public testing::Test {
     record::Store store = open_store();
     return run_plan(what, devices, suite, store, options, [this](const Progress& progress) {
       if (progress.loading) {
-        loads.push_back(*progress.loading);
+        loading_reports.push_back(*progress.loading);
       } else {
-        told.push_back(progress.configuration);
+        reported.push_back(progress.configuration);
       }
     });
   }
@@ -75,8 +75,8 @@ class RunTest : public testing::Test {
   Variable lp_perf{"LP_PERF"};
   FakeSuite suite;
   RunOptions options;
-  std::vector<std::string> told;
-  std::vector<Loading> loads;
+  std::vector<std::string> reported;
+  std::vector<Loading> loading_reports;
 };
 
 }  // namespace triptych::measure

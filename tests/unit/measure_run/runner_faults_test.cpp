@@ -161,11 +161,11 @@ TEST_F(RunFaults, AKilledCommandIsReportedWithItsSignalAndLastOutput) {
   EXPECT_EQ(result.failed, 4);
   const record::Reason reason = records(result.run).front().reason;
   EXPECT_EQ(reason.number("signal"), SIGBUS);
-  EXPECT_EQ(reason.last_words, "first | cannot map device");
+  EXPECT_EQ(reason.last_output, "first | cannot map device");
 }
 
 TEST_F(RunFaults, AMissingCommandFailsEverythingWithTheReason) {
-  if (!spawning_tells_of_a_missing_program()) GTEST_SKIP() << spawning_tells_nothing;
+  if (!spawning_reports_a_missing_program()) GTEST_SKIP() << spawning_does_not_report;
   options.worker_command = {"/nowhere/triptych"};
   const RunResult result = run(small_plan());
   EXPECT_EQ(result.failed, 4);

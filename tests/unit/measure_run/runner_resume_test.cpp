@@ -43,9 +43,9 @@ class RunResume : public RunTest {
 
   // Starts or resumes the run until a worker has been started for the first configuration, and then
   // kills the supervisor. The worker never answers.
-  void end_at_the_first(int signal) const {
-    const Variable stuck("TRIPTYCH_NULL_SCRIPT",
-                         R"({"failures": [{"kind": "hang", "at": "open"}]})");
+  void kill_during_first_configuration(int signal) const {
+    const Variable hanging_open("TRIPTYCH_NULL_SCRIPT",
+                                R"({"failures": [{"kind": "hang", "at": "open"}]})");
     const std::size_t before = started_workers().size();
     Process supervisor = supervise();
     for (int i = 0; i < 500 && started_workers().size() == before; ++i) {
@@ -56,7 +56,7 @@ class RunResume : public RunTest {
     ASSERT_TRUE(open_store().records(open_store().latest_run("fake/quick")->id).empty());
   }
 
-  void expect_workers_gone() const {
+  void expect_workers_ended() const {
     for (const pid_t pid : started_workers()) {
       for (int i = 0; i < 300 && ::kill(pid, 0) == 0; ++i) {
         std::this_thread::sleep_for(milliseconds(10));
@@ -78,13 +78,13 @@ TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
   }
   ASSERT_GE(kept, 3U);
   ASSERT_LT(kept, whole.configurations.size());
-  expect_workers_gone();
+  expect_workers_ended();
 
   options.resume = true;
   const RunResult result = run(whole);
   EXPECT_EQ(static_cast<std::size_t>(result.measured), whole.configurations.size());
-  EXPECT_EQ(static_cast<std::size_t>(result.there_before), kept);
-  EXPECT_EQ(told.size(), whole.configurations.size() - kept);
+  EXPECT_EQ(static_cast<std::size_t>(result.already_stored), kept);
+  EXPECT_EQ(reported.size(), whole.configurations.size() - kept);
   const record::Store store = open_store();
   EXPECT_EQ(store.runs().size(), 1U);
   EXPECT_EQ(store.records(result.run).size(), whole.configurations.size());
@@ -92,8 +92,8 @@ TEST_F(RunResume, AKilledSupervisorLosesAtMostTheConfigurationInFlight) {
 
 // Imitates a driver that crashes the machine, so that no process is left to report the crash.
 TEST_F(RunResume, AConfigurationThatTwiceEndedTheRunIsSkipped) {
-  end_at_the_first(SIGKILL);
-  end_at_the_first(SIGKILL);
+  kill_during_first_configuration(SIGKILL);
+  kill_during_first_configuration(SIGKILL);
   options.resume = true;
   const Plan whole = load_plan("fake/quick", {}, find());
   const RunResult result = run(whole);
@@ -107,9 +107,9 @@ TEST_F(RunResume, AConfigurationThatTwiceEndedTheRunIsSkipped) {
 }
 
 TEST_F(RunResume, OneAbnormalEndOrAnInterruptIsNotRecordedAsACrash) {
-  end_at_the_first(SIGKILL);
-  end_at_the_first(SIGTERM);
-  end_at_the_first(SIGTERM);
+  kill_during_first_configuration(SIGKILL);
+  kill_during_first_configuration(SIGTERM);
+  kill_during_first_configuration(SIGTERM);
   options.resume = true;
   EXPECT_EQ(run(load_plan("fake/quick", {}, find())).failed, 0);
 }
@@ -121,14 +121,15 @@ TEST_F(RunResume, ATerminatedSupervisorEndsItsWorkerAndCanBeResumed) {
   const auto exit = supervisor.wait(seconds(5));
   ASSERT_TRUE(exit);
   EXPECT_EQ(exit->code, 100 + SIGTERM);  // Interrupted was thrown and caught
-  expect_workers_gone();
+  expect_workers_ended();
   for (const record::Record& record : records(open_store().latest_run("fake/quick")->id)) {
     EXPECT_EQ(record.outcome, record::Outcome::measured);
   }
 }
 
 TEST_F(RunResume, AWorkerStuckInItsDriverDoesNotOutliveItsSupervisor) {
-  const Variable stuck("TRIPTYCH_NULL_SCRIPT", R"({"failures": [{"kind": "hang", "at": "open"}]})");
+  const Variable hanging_open("TRIPTYCH_NULL_SCRIPT",
+                              R"({"failures": [{"kind": "hang", "at": "open"}]})");
   Process supervisor = supervise();
   for (int i = 0; i < 500 && started_workers().empty(); ++i) {
     std::this_thread::sleep_for(milliseconds(10));
@@ -137,7 +138,7 @@ TEST_F(RunResume, AWorkerStuckInItsDriverDoesNotOutliveItsSupervisor) {
   ::kill(supervisor.pid(), SIGKILL);
   ASSERT_TRUE(supervisor.wait(seconds(5)));
   ASSERT_EQ(started_workers().size(), 1U);
-  expect_workers_gone();
+  expect_workers_ended();
 }
 
 class RunAgain : public RunTest {};
@@ -148,7 +149,7 @@ TEST_F(RunAgain, ResumingAFinishedRunMeasuresNothing) {
   const RunResult again = run(small_plan());
   EXPECT_EQ(again.run, first.run);
   EXPECT_EQ(again.measured, 4);
-  EXPECT_EQ(again.there_before, 4);
+  EXPECT_EQ(again.already_stored, 4);
   EXPECT_EQ(started_workers().size(), 1U);
   options.resume = false;
   EXPECT_NE(run(small_plan()).run, first.run);
@@ -163,7 +164,7 @@ TEST_F(RunAgain, ABuildThatResumesAnotherRunIsReported) {
   const record::Store store = open_store();
   ASSERT_EQ(store.runs().size(), 1U);
   std::set<std::string> programs;
-  for (const record::Beginning& each : store.runs()[0].begun) programs.insert(each.program);
+  for (const record::RunStart& each : store.runs()[0].begun) programs.insert(each.program);
   EXPECT_EQ(programs, (std::set<std::string>{"build a", "build b"}));
 }
 
@@ -187,10 +188,11 @@ TEST_F(RunAgain, AResumedRunKeepsItsClocksAndRejectsAnotherDriver) {
   {
     // With this script, the device clock reports only half of the wall time. If the clock were
     // calibrated again, it would therefore not be trusted.
-    const Variable lying("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "device_over_wall": 0.5})");
+    const Variable wrong_clock("TRIPTYCH_NULL_SCRIPT",
+                               R"({"base_ns": 3e6, "device_over_wall": 0.5})");
     const RunResult more = run(small_plan());
     EXPECT_EQ(more.measured, 4);
-    EXPECT_EQ(more.there_before, 2);
+    EXPECT_EQ(more.already_stored, 2);
     EXPECT_TRUE(open_store().devices(more.run).at(0).clocks.at(0).trusted);
   }
   const Variable updated("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "driver_version": "2"})");
@@ -217,7 +219,7 @@ TEST_F(RunTest, WorkersOfOneDeviceResumeARun) {
   EXPECT_EQ(run(small_plan()).failed, 2);
   options.resume = true;
   const RunResult resumed = run(small_plan());
-  EXPECT_EQ(resumed.there_before, 4);
+  EXPECT_EQ(resumed.already_stored, 4);
   EXPECT_EQ(resumed.measured, 2);
   EXPECT_EQ(resumed.failed, 2);
 }
@@ -232,14 +234,14 @@ TEST_F(RunTest, RepeatedConfigurationsReplaceTheirRecords) {
   }
   options.faults.clear();
   options.resume = true;
-  options.again = {{"null:scripted", one}, {"null:other", "technique=raycast"}};
-  told.clear();
+  options.remeasure = {{"null:scripted", one}, {"null:other", "technique=raycast"}};
+  reported.clear();
   const RunResult second = run(small_plan());
   EXPECT_EQ(second.run, first.run);
-  EXPECT_THAT(told, testing::ElementsAre(one));
+  EXPECT_THAT(reported, testing::ElementsAre(one));
   EXPECT_EQ(second.measured, 3);
   EXPECT_EQ(second.failed, 1);
-  EXPECT_EQ(second.there_before, 3);
+  EXPECT_EQ(second.already_stored, 3);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ TEST_F(RunTest, MeasuresAndReportsEveryConfigurationOnEveryDevice) {
   const RunResult result = run(small_plan(), {"null:scripted", "null:scripted#2"});
   EXPECT_EQ(result.measured, 8);
   EXPECT_EQ(result.skipped + result.failed, 0);
-  EXPECT_EQ(told.size(), 8U);
+  EXPECT_EQ(reported.size(), 8U);
   // Each device has one worker, which serves it for the whole run.
   EXPECT_EQ(started_workers().size(), 2U);
   EXPECT_GT(result.wall_ns, result.overhead_ns);
@@ -98,7 +98,8 @@ TEST_F(RunTest, RunsRecordSystemDevicesAndClocks) {
 }
 
 TEST_F(RunTest, AWrongClockIsDetectedAndTheWallClockIsUsed) {
-  const Variable lying("TRIPTYCH_NULL_SCRIPT", R"({"base_ns": 3e6, "device_over_wall": 0.1})");
+  const Variable wrong_clock("TRIPTYCH_NULL_SCRIPT",
+                             R"({"base_ns": 3e6, "device_over_wall": 0.1})");
   const RunResult result = run(small_plan());
   for (const record::Record& record : records(result.run)) {
     EXPECT_EQ(record.clock(), "wall");

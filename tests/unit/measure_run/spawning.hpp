@@ -9,7 +9,7 @@
 
 namespace triptych::measure {
 
-inline bool spawning_tells_of_a_missing_program() {
+inline bool spawning_reports_a_missing_program() {
   char name[] = "/nowhere/program";
   char* words[] = {name, nullptr};
   pid_t child = 0;
@@ -18,7 +18,7 @@ inline bool spawning_tells_of_a_missing_program() {
   return false;
 }
 
-inline constexpr const char* spawning_tells_nothing =
+inline constexpr const char* spawning_does_not_report =
     "posix_spawn does not say that a program is missing, as under QEMU";
 
 }  // namespace triptych::measure

@@ -34,7 +34,7 @@ MATCHER_P(Is, worth, "") {
 
 // The numbers that Triptych's own counters report for the scene with many small sprites: all
 // fragments, and those that are kept because they hit their sphere.
-constexpr std::uint64_t true_fragments = 2500;
+constexpr std::uint64_t all_fragments = 2500;
 constexpr std::uint64_t kept_fragments = 2090;
 
 bool is_one_sprite(const Work& work) {
@@ -54,7 +54,7 @@ record::Counts exact_counts(const Work& work) {
         continue;
       }
       record::Counts counts = scene.expected;
-      if (scene.counts_fragments) counts["fragment_invocations"] = true_fragments;
+      if (scene.counts_fragments) counts["fragment_invocations"] = all_fragments;
       return counts;
     }
   }
@@ -72,7 +72,7 @@ class CountingPrepared final : public Prepared {
   Frame frame(Purpose purpose) override {
     Frame frame;
     if (purpose == Purpose::counters) {
-      frame.counts = {{"fragments", true_fragments}, {"fragments_kept", kept_fragments}};
+      frame.counts = {{"fragments", all_fragments}, {"fragments_kept", kept_fragments}};
     }
     if (purpose == Purpose::statistics) {
       frame.counts = exact_counts(work_);
@@ -120,10 +120,10 @@ Calibration calibration_of(Script script, technique::Work kind = technique::Work
   return calibrate_statistics(device, kind);
 }
 
-void tell_the_truth(const Work&, int, record::Counts&) {}
+void count_exactly(const Work&, int, record::Counts&) {}
 
 TEST(Calibration, CorrectNumbersAreExact) {
-  const Calibration calibration = calibration_of(tell_the_truth);
+  const Calibration calibration = calibration_of(count_exactly);
   EXPECT_THAT(calibration, Each(Pair(testing::_, exact)));
   for (const char* const name :
        {"input_assembly_vertices", "input_assembly_primitives", "vertex_invocations",
@@ -132,7 +132,7 @@ TEST(Calibration, CorrectNumbersAreExact) {
         "tessellation_evaluation_invocations"}) {
     EXPECT_THAT(calibration, Contains(Key(name)));
   }
-  EXPECT_EQ(calibration_of(tell_the_truth, technique::Work::compute),
+  EXPECT_EQ(calibration_of(count_exactly, technique::Work::compute),
             (Calibration{{"compute_invocations", exact}}));
 }
 
@@ -215,12 +215,12 @@ TEST(Calibration, ADeviceWithoutStatisticsIsQueriedOnce) {
 }
 
 TEST(Calibration, AMissingStageIsNotJudged) {
-  CountingDevice device(tell_the_truth, "quad_screen");
+  CountingDevice device(count_exactly, "quad_screen");
   const Calibration calibration = calibrate_statistics(device, technique::Work::draw);
   EXPECT_THAT(calibration, Not(Contains(Key("geometry_primitives"))));
   EXPECT_THAT(calibration, Contains(Pair("tessellation_control_patches", exact)));
 
-  CountingDevice none(tell_the_truth, "raycast");
+  CountingDevice none(count_exactly, "raycast");
   EXPECT_THAT(calibrate_statistics(none, technique::Work::compute), IsEmpty());
 }
 

@@ -73,7 +73,7 @@ TEST(OpenByQuads, DependOnTheDevicesLargestPoint) {
   const auto suite = make_suite({});
   measure::Configuration configuration;
   for (const measure::Factor& factor : suite->factors()) {
-    configuration[factor.name] = factor.standard;
+    configuration[factor.name] = factor.default_value;
   }
   configuration["technique"] = "point";
   configuration["data"] = "generate:uniform:100";

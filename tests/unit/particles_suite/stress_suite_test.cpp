@@ -30,7 +30,7 @@ std::vector<std::string> all_data() {
 measure::Configuration defaults(const measure::Suite& suite) {
   measure::Configuration configuration;
   for (const measure::Factor& factor : suite.factors())
-    configuration[factor.name] = factor.standard;
+    configuration[factor.name] = factor.default_value;
   return configuration;
 }
 
@@ -120,11 +120,11 @@ TEST(StressSuite, TiedVariantsNameTheOneTheyAreTiedTo) {
   const auto& same_image = std::get<record::SameImage>(small[0].rule);
   EXPECT_EQ(same_image.changed.at("data"), "stress:scale:unit");
   EXPECT_EQ(same_image.depth_scale, 0x1.0p-20F);
-  EXPECT_TRUE(same_image.to_the_bit);
+  EXPECT_TRUE(same_image.bit_identical);
   ASSERT_EQ(expected("stress:order:shuffled").size(), 1U);
   ASSERT_EQ(expected("stress:no_sphere:with").size(), 1U);
   ASSERT_EQ(expected("stress:count:0").size(), 1U);
-  EXPECT_TRUE(std::holds_alternative<record::OneColour>(expected("stress:count:0")[0].rule));
+  EXPECT_TRUE(std::holds_alternative<record::UniformColour>(expected("stress:count:0")[0].rule));
 }
 
 }  // namespace

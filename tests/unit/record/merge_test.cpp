@@ -182,7 +182,7 @@ TEST_F(Merge, PrefersMeasuredRecords) {
       shard(1, {failed(1), record_of(2, 5), failed(3), record_of(4)}),
       shard(2, {record_of(1), record_of(2, 6), failed(3, Outcome::hung), record_of(4)})};
   const RecordCounts counts = merge(files).plans.at(0).counts;
-  EXPECT_EQ(counts.measured_anew, 1U);
+  EXPECT_EQ(counts.remeasured, 1U);
   EXPECT_EQ(counts.not_chosen, 2U);
   EXPECT_EQ(counts.repeated, 1U);
   EXPECT_EQ(counts.configurations, 4U);
@@ -202,7 +202,7 @@ TEST_F(Merge, PrefersRecordsWithoutInjectedFaults) {
   const RecordCounts counts = merge(files).plans.at(0).counts;
   EXPECT_EQ(counts.injected, 3U);
   EXPECT_EQ(counts.not_chosen, 1U) << "only configuration 4 has two records with a fault";
-  EXPECT_EQ(counts.measured_anew, 0U);
+  EXPECT_EQ(counts.remeasured, 0U);
   const std::vector<Record> records = merged_records();
   ASSERT_THAT(records, SizeIs(4));
   EXPECT_EQ(text_of(records[0]), text_of(clean(record_of(1, 6))));

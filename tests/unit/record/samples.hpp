@@ -32,7 +32,7 @@ inline Device sample_device(const std::string& id = "null:scripted") {
           .faults = {{.kind = DeviceFaultKind::clock_reads_zero,
                       .subject = "draw",
                       .detail = "0 ns",
-                      .last_words = "a warning"}}};
+                      .last_output = "a warning"}}};
 }
 
 inline ClockTrust sample_clock() {
@@ -65,7 +65,7 @@ inline Record sample_record(const std::string& configuration = "camera=a,data=b,
                      .not_tried = true,
                      .shared_levels = "data=b",
                      .detail = "a reason",
-                     .last_words = "a warning"},
+                     .last_output = "a warning"},
           .same_as = "camera=random:7,technique=raycast",
           .injected = "a fault",
           .wall_ns = {12.5, 3.25, 1e9, 0.1},

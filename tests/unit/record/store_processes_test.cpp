@@ -23,7 +23,7 @@ namespace {
 
 // Time limit of the test's own connection. The connection must wait, because a second process
 // (LateWriter) may access the file at any time, even during a commit.
-constexpr int patience_ms = 10'000;
+constexpr int time_limit_ms = 10'000;
 
 using std::chrono::milliseconds;
 using ::testing::HasSubstr;
@@ -32,7 +32,7 @@ using Mode = Store::Mode;
 
 TEST_F(StoreTest, ABusyStoreIsReportedAfterWaiting) {
   make_store(file_);
-  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE, patience_ms);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE, time_limit_ms);
   other.exec("BEGIN IMMEDIATE");
   Store store(file_, Mode::append, milliseconds(200));
   const auto start = std::chrono::steady_clock::now();
@@ -170,7 +170,8 @@ TEST_F(StoreTest, CreatedByAnotherProcessBeforeTheLock) {
   const LateWriter late(file_);
   // This takes a RESERVED lock: others can still read the blank file, but must wait before they
   // write.
-  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, patience_ms);
+  SQLite::Database other(file_.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                         time_limit_ms);
   other.exec("BEGIN IMMEDIATE");
   late.begin();
   SQLite::Database from(model.string());

@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-constexpr auto of_the_image = measure::Decides::the_image;
+constexpr auto of_the_image = measure::FactorRole::scene;
 
 TEST(SimplerLevels, AChoiceHasThePrecedingLevels) {
   const measure::Factor skip =

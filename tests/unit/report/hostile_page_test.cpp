@@ -148,7 +148,7 @@ record::Record record_of(const std::string& s, int number, const std::string& im
                    .code = s,
                    .shared_levels = s,
                    .detail = s,
-                   .last_words = s};
+                   .last_output = s};
   record.injected = s;
   record.counters = counts;
   record.statistics = counts;
@@ -252,7 +252,7 @@ std::string page_of(const std::string& s) {
   device.statistics_calibration[s].counter = s;
   device.statistics_calibration[s].detail = s;
   device.statistics_calibration[s].worth = record::Worth::differs;
-  device.faults = {{.subject = s, .detail = s, .last_words = s}};
+  device.faults = {{.subject = s, .detail = s, .last_output = s}};
   record::ClockTrust clock;
   clock.work = clock.verdict = s;
   store.add_device(run.id, device, {clock});

@@ -93,7 +93,7 @@ class ScriptedStore {
     if (crashed) {
       record.reason = {.cause = record::Cause::signal,
                        .numbers = {{"signal", 11}},
-                       .last_words = "in the driver <x>"};
+                       .last_output = "in the driver <x>"};
     }
     if (!crashed) {
       core::Image image = truth_of(record).truth;

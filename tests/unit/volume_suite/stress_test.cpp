@@ -31,7 +31,7 @@ measure::Configuration configuration(const std::string& data) {
   measure::Configuration result{{"data", data}};
   const auto suite = make_suite({});
   for (const measure::Factor& factor : suite->factors()) {
-    result.emplace(factor.name, factor.standard);
+    result.emplace(factor.name, factor.default_value);
   }
   for (const char* own :
        {"transfer_function", "step", "quadrature", "shading", "ert", "camera", "viewport"}) {
@@ -173,7 +173,7 @@ TEST(Stress, EveryCaseShowsSomething) {
     if (data.starts_with("stress:march")) continue;
     const StressScene scene = stress_scene(*stress_data(data));
     const bool is_empty = std::ranges::any_of(scene.expectations, [&](const auto& each) {
-      const auto* one = std::get_if<record::OneColour>(&each.rule);
+      const auto* one = std::get_if<record::UniformColour>(&each.rule);
       return one != nullptr && one->rgba == scene.background;
     });
     if (is_empty) continue;

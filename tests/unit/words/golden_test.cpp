@@ -136,7 +136,7 @@ TEST(Sentences, OfEveryOutcome) {
                           .subject = "vkQueueSubmit",
                           .code = "ErrorDeviceLost",
                           .detail = "DETAIL",
-                          .last_words = ""};
+                          .last_output = ""};
     text += fmt::format("{}: {}\n", record::name_of(cause), words::text_of(reason));
   });
   record::Reason reason{.cause = record::Cause::timeout,
@@ -145,7 +145,7 @@ TEST(Sentences, OfEveryOutcome) {
                         .subject = "gl:x",
                         .not_tried = true,
                         .shared_levels = "technique=raycast",
-                        .last_words = "cannot map"};
+                        .last_output = "cannot map"};
   text += words::text_of(record::Outcome::hung, reason) + "\n";
   reason.stage = record::Stage::counting;
   text += words::text_of(record::Outcome::skipped, reason) + "\n";

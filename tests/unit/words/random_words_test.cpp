@@ -61,7 +61,7 @@ class RandomWords : public GateTest {
       const auto end = [&](record::Outcome outcome, record::Reason reason) {
         record.outcome = outcome;
         reason.detail = say("a detail");
-        reason.last_words = say("last words");
+        reason.last_output = say("last words");
         record.reason = std::move(reason);
       };
       using record::Cause;

@@ -51,7 +51,7 @@ TEST(Screens, WrongImage) {
 
 TEST(Screens, Crash) {
   judge::Observation what = crashed(11);
-  what.reason.last_words = "LLVM ERROR: out of memory";
+  what.reason.last_output = "LLVM ERROR: out of memory";
   expect_screen("crash", result_with(Check::image, regression, what));
 }
 

@@ -31,32 +31,32 @@ struct Unusable {
 
 // The part of a run that one command contributed: the devices that the user requested, and the
 // devices that were found. A run that was resumed or merged has several parts.
-struct Beginning {
+struct RunStart {
   std::string host = {};
-  std::string program = {};               // version of Triptych; empty if unknown
-  std::vector<std::string> asked = {};    // requested device ids, as globs; empty: all devices
-  std::vector<std::string> found = {};    // ids of all devices that were found
-  std::vector<std::string> devices = {};  // ids of the devices to be measured
+  std::string program = {};                 // version of Triptych; empty if unknown
+  std::vector<std::string> requested = {};  // requested device ids, as globs; empty: all devices
+  std::vector<std::string> found = {};      // ids of all devices that were found
+  std::vector<std::string> devices = {};    // ids of the devices to be measured
   std::vector<Unusable> unusable = {};
-  bool operator==(const Beginning&) const = default;
+  bool operator==(const RunStart&) const = default;
 
-  // asks_for() returns whether the command requested the device with this id. asks_for_api()
+  // requests_device() returns whether the command requested the device with this id. requests_api()
   // returns whether it requested any device of this API.
-  [[nodiscard]] bool asks_for(std::string_view device) const;
-  [[nodiscard]] bool asks_for_api(std::string_view api) const;
+  [[nodiscard]] bool requests_device(std::string_view device) const;
+  [[nodiscard]] bool requests_api(std::string_view api) const;
 };
 
 void to_json(nlohmann::json& json, const Unusable& unusable);
 void from_json(const nlohmann::json& json, Unusable& unusable);
-void to_json(nlohmann::json& json, const Beginning& beginning);
-void from_json(const nlohmann::json& json, Beginning& beginning);
+void to_json(nlohmann::json& json, const RunStart& start);
+void from_json(const nlohmann::json& json, RunStart& start);
 
 // Sorts the parts and removes duplicates. The result does not depend on the order of `parts`.
-[[nodiscard]] std::vector<Beginning> joined(std::vector<Beginning> parts);
+[[nodiscard]] std::vector<RunStart> joined(std::vector<RunStart> parts);
 
 // devices_of() returns the ids of all devices that any part planned to measure. found_in() returns
 // the ids of all devices that any part found.
-[[nodiscard]] std::vector<std::string> devices_of(const std::vector<Beginning>& parts);
-[[nodiscard]] std::vector<std::string> found_in(const std::vector<Beginning>& parts);
+[[nodiscard]] std::vector<std::string> devices_of(const std::vector<RunStart>& parts);
+[[nodiscard]] std::vector<std::string> found_in(const std::vector<RunStart>& parts);
 
 }  // namespace triptych::record

@@ -1,4 +1,4 @@
-#include "measure/run/same_failure.hpp"
+#include "measure/run/failure_predictor.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 namespace triptych::measure {
 namespace {
 
-bool ended_the_worker(record::Outcome outcome) {
+bool ends_worker(record::Outcome outcome) {
   return outcome == record::Outcome::crashed || outcome == record::Outcome::hung ||
          outcome == record::Outcome::lost;
 }
@@ -26,47 +26,48 @@ std::set<std::string> differing(const Configuration& a, const Configuration& b) 
 
 }  // namespace
 
-void SameFailure::saw(const Configuration& configuration, const record::Record& record) {
+void FailurePredictor::add(const Configuration& configuration, const record::Record& record) {
   if (record.outcome == record::Outcome::measured) measured_.push_back(configuration);
-  if (!ended_the_worker(record.outcome) || record.reason.not_tried) return;
+  if (!ends_worker(record.outcome) || record.reason.not_tried) return;
   const Failure failure{
       configuration, record.outcome, record.reason,
       fmt::format("{} {}", record::name_of(record.outcome), record::kind_of(record.reason))};
-  for (const Failure& before : failures_) {
-    if (before.kind != failure.kind) continue;
-    const Factors factors = differing(before.configuration, configuration);
+  for (const Failure& earlier : failures_) {
+    if (earlier.kind != failure.kind) continue;
+    const Factors factors = differing(earlier.configuration, configuration);
     if (!is_refuted(configuration, factors))
-      no_matter_[failure.kind].insert(factors.begin(), factors.end());
+      irrelevant_[failure.kind].insert(factors.begin(), factors.end());
   }
   failures_.push_back(failure);
 }
 
-std::optional<SameFailure::Foretold> SameFailure::foretold(
+std::optional<FailurePredictor::Prediction> FailurePredictor::predict(
     const Configuration& configuration) const {
   for (const Failure& failure : failures_) {
-    const auto found = no_matter_.find(failure.kind);
-    if (found == no_matter_.end()) continue;
-    const Factors& no_matter = found->second;
-    if (!std::ranges::includes(no_matter, differing(failure.configuration, configuration)) ||
-        is_refuted(failure.configuration, no_matter)) {
+    const auto found = irrelevant_.find(failure.kind);
+    if (found == irrelevant_.end()) continue;
+    const Factors& irrelevant = found->second;
+    if (!std::ranges::includes(irrelevant, differing(failure.configuration, configuration)) ||
+        is_refuted(failure.configuration, irrelevant)) {
       continue;
     }
     Configuration shared = failure.configuration;
     std::erase_if(shared, [&](const auto& level) {
-      return no_matter.contains(level.first) ||
+      return irrelevant.contains(level.first) ||
              std::ranges::find(varied_, level.first) == varied_.end();
     });
-    Foretold foretold{failure.outcome, failure.reason};
-    foretold.reason.not_tried = true;
-    foretold.reason.shared_levels = record::factor_list(shared);
-    return foretold;
+    Prediction prediction{failure.outcome, failure.reason};
+    prediction.reason.not_tried = true;
+    prediction.reason.shared_levels = record::factor_list(shared);
+    return prediction;
   }
   return std::nullopt;
 }
 
-bool SameFailure::is_refuted(const Configuration& configuration, const Factors& but_for) const {
+bool FailurePredictor::is_refuted(const Configuration& configuration,
+                                  const Factors& ignored) const {
   return std::ranges::any_of(measured_, [&](const Configuration& measured) {
-    return std::ranges::includes(but_for, differing(configuration, measured));
+    return std::ranges::includes(ignored, differing(configuration, measured));
   });
 }
 

@@ -5,7 +5,7 @@
 namespace triptych::measure {
 
 // Removes the first line of the text, with its line break, and returns it without the line break.
-inline std::string_view take_line(std::string_view& text) {
+inline std::string_view consume_line(std::string_view& text) {
   const std::size_t end = text.find('\n');
   const std::string_view line = text.substr(0, end);
   text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);

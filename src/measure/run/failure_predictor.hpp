@@ -16,16 +16,16 @@
 
 namespace triptych::measure {
 
-// The failures of one device in one plan.
-class SameFailure {
+// Predicts which configurations of a plan fail on a device, from the failures so far.
+class FailurePredictor {
  public:
   // `varied` contains the factors that have more than one value in the plan. Reasons state the
   // levels of these factors.
-  explicit SameFailure(std::vector<std::string> varied) : varied_(std::move(varied)) {}
+  explicit FailurePredictor(std::vector<std::string> varied) : varied_(std::move(varied)) {}
 
-  void saw(const Configuration& configuration, const record::Record& record);
+  void add(const Configuration& configuration, const record::Record& record);
 
-  struct Foretold {
+  struct Prediction {
     record::Outcome outcome;
     // The reason why the tried configurations failed, with the levels that they share. Its member
     // `not_tried` is true.
@@ -39,7 +39,7 @@ class SameFailure {
   // - The two configurations differ only in irrelevant factors.
   // - No configuration that differs from the earlier configuration only in irrelevant factors was
   //   measured successfully.
-  [[nodiscard]] std::optional<Foretold> foretold(const Configuration& configuration) const;
+  [[nodiscard]] std::optional<Prediction> predict(const Configuration& configuration) const;
 
  private:
   using Factors = std::set<std::string>;
@@ -49,12 +49,12 @@ class SameFailure {
     record::Reason reason;
     std::string kind;  // kind of outcome and reason
   };
-  [[nodiscard]] bool is_refuted(const Configuration& configuration, const Factors& but_for) const;
+  [[nodiscard]] bool is_refuted(const Configuration& configuration, const Factors& ignored) const;
 
   std::vector<std::string> varied_;
   std::vector<Configuration> measured_;
   std::vector<Failure> failures_;
-  std::map<std::string, Factors> no_matter_;  // irrelevant factors by Failure::kind
+  std::map<std::string, Factors> irrelevant_;  // irrelevant factors by Failure::kind
 };
 
 }  // namespace triptych::measure

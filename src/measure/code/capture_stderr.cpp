@@ -1,4 +1,4 @@
-#include "measure/code/standard_error.hpp"
+#include "measure/code/capture_stderr.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -17,9 +17,9 @@ namespace {
 // unbuffered by default. Here it is line-buffered, because Mesa prints each word of a disassembly
 // with a separate call. Without buffering, the resulting system calls took a quarter of the compile
 // time.
-class Redirected {
+class StderrRedirection {
  public:
-  Redirected()
+  StderrRedirection()
       : file_(::memfd_create("standard error", MFD_CLOEXEC)),
         before_(::dup(STDERR_FILENO)),
         lines_(BUFSIZ) {
@@ -29,9 +29,9 @@ class Redirected {
     ::dup2(file_.get(), STDERR_FILENO);
     std::setvbuf(stderr, lines_.data(), _IOLBF, lines_.size());
   }
-  Redirected(const Redirected&) = delete;
-  Redirected& operator=(const Redirected&) = delete;
-  ~Redirected() {
+  StderrRedirection(const StderrRedirection&) = delete;
+  StderrRedirection& operator=(const StderrRedirection&) = delete;
+  ~StderrRedirection() {
     std::fflush(stderr);
     std::setvbuf(stderr, nullptr, _IONBF, 0);
     ::dup2(before_.get(), STDERR_FILENO);
@@ -58,10 +58,10 @@ class Redirected {
 
 }  // namespace
 
-std::string standard_error_of(const std::function<void()>& act) {
-  const Redirected redirected;
-  act();
-  return redirected.text();
+std::string capture_stderr(const std::function<void()>& action) {
+  const StderrRedirection redirection;
+  action();
+  return redirection.text();
 }
 
 }  // namespace triptych::measure
