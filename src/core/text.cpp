@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace triptych::core {
 namespace {
@@ -91,22 +90,6 @@ bool is_line(std::string_view text) {
     text.remove_prefix(length);
   }
   return true;
-}
-
-std::string without_numbers(std::string_view text) {
-  constexpr std::string_view between = " ,;:()[]";
-  std::string shape;
-  while (!text.empty()) {
-    const std::size_t length = std::min(text.find_first_of(between), text.size());
-    const std::string_view word = text.substr(0, length);
-    const bool number = std::ranges::any_of(
-        word, [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; });
-    shape += number ? std::string_view("#") : word;
-    const std::size_t after = std::min(length + 1, text.size());
-    shape += text.substr(length, after - length);
-    text.remove_prefix(after);
-  }
-  return shape;
 }
 
 }  // namespace triptych::core

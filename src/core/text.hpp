@@ -29,8 +29,4 @@ inline constexpr std::string_view replacement_character = "\uFFFD";
 // and is read back unchanged from JSON and XML.
 [[nodiscard]] bool is_line(std::string_view text);
 
-// Returns the text with every word that contains a digit replaced by '#', so that messages that
-// differ only in their numbers become equal.
-[[nodiscard]] std::string without_numbers(std::string_view text);
-
 }  // namespace triptych::core

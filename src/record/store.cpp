@@ -249,15 +249,6 @@ std::set<std::string> Store::names(std::string_view run, std::string_view table)
   });
 }
 
-std::uint64_t Store::count_records(std::string_view run, std::string_view device) const {
-  return on_store(state_->file, [&] {
-    SQLite::Statement row = prepared(
-        state_->database, "SELECT count(*) FROM record WHERE run = ? AND device = ?", run, device);
-    row.executeStep();
-    return static_cast<std::uint64_t>(row.getColumn(0).getInt64());
-  });
-}
-
 bool Store::has_record(std::string_view run, std::string_view configuration,
                        std::string_view device) const {
   return on_store(state_->file, [&] {

@@ -118,7 +118,6 @@ class Store {
   // Returns all names that occur in `table` for the records of the run. `table` must be a table of
   // names and values, such as "factor" or "cost".
   [[nodiscard]] std::set<std::string> names(std::string_view run, std::string_view table) const;
-  [[nodiscard]] std::uint64_t count_records(std::string_view run, std::string_view device) const;
   [[nodiscard]] bool has_record(std::string_view run, std::string_view configuration,
                                 std::string_view device) const;
   [[nodiscard]] std::vector<std::byte> image(

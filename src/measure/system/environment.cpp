@@ -10,6 +10,7 @@
 #include <cctype>
 #include <cerrno>
 #include <cstdlib>
+#include <string_view>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -18,12 +19,18 @@
 namespace triptych::measure {
 namespace {
 
+// A variable that is set for workers unless the user has set it.
+struct EnvironmentDefault {
+  std::string_view name;
+  std::string_view value;  // "{cache}" stands for the worker's own cache folder
+  std::string_view api;    // prefix of the ids of the affected devices
+};
 constexpr std::array<EnvironmentDefault, 2> defaults{{
-    {"POCL_CACHE_DIR", "{cache}",
-     "opencl:", "PoCL processes crash if they use the same kernel cache at the same time"},
-    {"POCL_PTHREAD_MIN_WGS", "1", "opencl:",
-     "otherwise PoCL uses only one thread for a launch with few work-groups, which halves the "
-     "speed for an image of 256x256 pixels"},
+    // PoCL processes crash if they use the same kernel cache at the same time.
+    {"POCL_CACHE_DIR", "{cache}", "opencl:"},
+    // Otherwise PoCL uses only one thread for a launch with few work-groups, which halves the speed
+    // for an image of 256x256 pixels.
+    {"POCL_PTHREAD_MIN_WGS", "1", "opencl:"},
 }};
 
 std::string variable(const char* name) {
@@ -99,10 +106,6 @@ bool starts_with_variable(std::string_view text) {
 }
 
 }  // namespace
-
-std::span<const EnvironmentDefault> environment_defaults() {
-  return defaults;
-}
 
 CacheFolder::CacheFolder(std::string_view device_id) {
   constexpr int most_folders = 64;

@@ -14,15 +14,6 @@
 
 namespace triptych::measure {
 
-// A variable that is set for workers unless the user has set it.
-struct EnvironmentDefault {
-  std::string_view name;
-  std::string_view value;  // "{cache}" stands for the worker's own cache folder
-  std::string_view api;    // prefix of the ids of the affected devices
-  std::string_view reason;
-};
-[[nodiscard]] std::span<const EnvironmentDefault> environment_defaults();
-
 // A cache folder for a single worker. It remains after the run, so that later runs find the code
 // that was compiled before. Its path is ROOT/<device>-<n>. ROOT is $XDG_CACHE_HOME/triptych,
 // ~/.cache/triptych or a folder in the system's folder for temporary files, and n is the first

@@ -9,12 +9,6 @@ namespace {
 
 using namespace std::string_view_literals;
 
-TEST(Text, WordsWithDigitsAreReplaced) {
-  EXPECT_EQ(without_numbers("3 of 256 pixels: 0x1f, 4ms"), "# of # pixels: #, #");
-  EXPECT_EQ(without_numbers(""), "");
-  EXPECT_EQ(without_numbers("SIGSEGV in thread llvmpipe-0;"), "SIGSEGV in thread #;");
-}
-
 TEST(Text, ALineIsUtf8WithoutControlCharacters) {
   for (const auto line : {""sv, "a b"sv, "größe"sv, "\u9AD4\U0001F9CA"sv, "\U0010FFFD"sv}) {
     EXPECT_TRUE(is_line(line)) << line;
