@@ -39,7 +39,7 @@ TEST(OnlyCompile, OpenclHasOneQueue) {
 // Every GL function that this backend calls to execute work, read results or wait must be replaced
 // on compile-only devices.
 TEST(OnlyCompile, GlReplacesAllExecutingCalls) {
-  const std::string guard = read(source_folder / "backends/gl/only_compile.cpp");
+  const std::string guard = read(source_folder / "backends/gl/compile_only.cpp");
   static const std::regex call(
       R"(\bgl_?(?:->|\.)((?:Draw(?:Arrays|Elements)|MultiDraw|Dispatch|Clear|Read(?!Buffer)|Copy|Get\w*SubData|GetQueryObject|GetTexImage|FenceSync|ClientWaitSync|Finish|Flush|Blit|BufferSubData|BufferData|TexImage|TexSubImage|GenerateMipmap|MapBuffer)\w*)\()");
   std::size_t seen = 0;
@@ -49,7 +49,7 @@ TEST(OnlyCompile, GlReplacesAllExecutingCalls) {
       const std::string name = (*at)[1];
       ++seen;
       EXPECT_NE(guard.find("gl." + name), std::string::npos)
-          << file << " calls gl" << name << ", which only_compile.cpp does not replace";
+          << file << " calls gl" << name << ", which compile_only.cpp does not replace";
     }
   }
   EXPECT_GT(seen, 10U);
