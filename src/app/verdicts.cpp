@@ -110,6 +110,7 @@ judge::GateResult judge_stored_run(const record::Store& store, const std::string
 }
 
 void excuse_absent_data(const record::Store& store, judge::GateResult& result) {
+  result.data_excused = true;
   const std::vector<record::Record> records = store.records(result.run);
   for (judge::Finding& finding : result.findings) {
     if (finding.verdict != judge::Verdict::cannot_judge) continue;

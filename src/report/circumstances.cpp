@@ -19,18 +19,21 @@ namespace {
 std::string absent_data(std::span<const judge::GateResult* const> results) {
   std::set<std::string> files;
   std::set<std::tuple<std::string, std::string, std::string>> missing;
+  bool excused = true;
   for (const judge::GateResult* result : results) {
     for (const judge::Finding& finding : result->findings) {
       if (!lacks_data(finding.outcome, finding.reason)) continue;
       files.insert(finding.reason.subject);
       missing.emplace(result->plan, finding.device, finding.configuration);
+      excused = excused && result->data_excused;
     }
   }
   if (files.empty()) return {};
   return fmt::format(
-      "missing data files: {} ({}{}), so {} results were skipped; see docs/data.md, or use "
-      "--without-data if this machine does not need the data",
-      files.size(), *files.begin(), files.size() > 1 ? ", …" : "", missing.size());
+      "missing data files: {} ({}{}), so {} results were skipped; docs/data.md lists where to "
+      "download the files{}",
+      files.size(), *files.begin(), files.size() > 1 ? ", …" : "", missing.size(),
+      excused ? "" : "; if this machine does not need them, use --without-data");
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 
 #include "record/device_id.hpp"
 #include "record/factor_list.hpp"
+#include "report/circumstances.hpp"
 #include "report/command.hpp"
 
 namespace triptych::report {
@@ -390,6 +391,7 @@ bool is_open(const Finding& finding) {
 std::string command_of(const Finding& finding, const judge::GateResult& result) {
   // There is no command for a skipped configuration, because it would only be skipped again.
   if (finding.device.empty() || finding.verdict == Verdict::skipped) return {};
+  if (lacks_data(finding.outcome, finding.reason)) return {};
   if (finding.configuration.empty() && finding.check != Check::correlation) return {};
   Command command{.command = "render",
                   .object = finding.test.substr(0, finding.test.find('.')),

@@ -40,6 +40,7 @@ struct GateResult {
   std::string baselines = {};                        // baselines folder, if commands must name it
   bool times_decided = false;                        // copied from the request
   bool part = false;                                 // copied from the request
+  bool data_excused = false;                         // missing data files are not an error
   // Notes about the run, which the final terminal output shows for every verdict: loaders and
   // drivers that failed during device enumeration; the injected faults, each with its number of
   // records; the program that measured, if it is not the program that judges; and the day on which

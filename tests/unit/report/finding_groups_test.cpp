@@ -297,6 +297,19 @@ TEST(CommandOf, RepeatsTheCorrelationOfAllDevices) {
   }
 }
 
+// Every command would fail, because the data file is still missing.
+TEST(CommandOf, IsEmptyIfADataFileIsMissing) {
+  const judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
+  const record::Reason unsupported{.cause = record::Cause::not_supported};
+  record::Reason no_file = unsupported;
+  no_file.subject = "tooth.nrrd";
+  for (const auto& [reason, empty] : {std::pair{unsupported, false}, std::pair{no_file, true}}) {
+    const Finding finding_of_skip =
+        finding(cannot_judge, "gl:x", "step=1", ended(record::Outcome::skipped, reason));
+    EXPECT_EQ(command_of(finding_of_skip, quick).empty(), empty);
+  }
+}
+
 TEST(CommandOf, IsEmptyIfNoCommandReproducesTheFinding) {
   const judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
   EXPECT_EQ(command_of(finding(regression, "", ""), quick), "");

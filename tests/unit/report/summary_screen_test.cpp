@@ -103,6 +103,19 @@ TEST(SummaryScreen, ListsTheCircumstancesOfAPass) {
   EXPECT_THAT(text, HasSubstr("unusable on this machine: Vulkan: no loader"));
 }
 
+TEST(SummaryScreen, SuggestsToExcuseMissingDataUnlessTheyAreExcused) {
+  GateResult result = passing();
+  record::Reason no_file{.cause = record::Cause::not_supported};
+  no_file.subject = "tooth.nrrd";
+  add(result, Check::image, skipped, "gl:x", "step=2", ended(record::Outcome::skipped, no_file));
+  const auto screen = [&] { return summary_screen(std::vector{result}, 3, {}, {.width = 120}); };
+  EXPECT_THAT(screen(), HasSubstr("missing data files: 1 (tooth.nrrd)"));
+  EXPECT_THAT(screen(), HasSubstr("--without-data"));
+  result.data_excused = true;
+  EXPECT_THAT(screen(), HasSubstr("missing data files: 1 (tooth.nrrd)"));
+  EXPECT_THAT(screen(), Not(HasSubstr("--without-data")));
+}
+
 TEST(SummaryScreen, StatesWhetherTimesDecided) {
   GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
   add(result, Check::timing, pass, "gl:x", "step=1", {.cause = judge::Cause::time});
