@@ -9,6 +9,7 @@
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "core/quoting.hpp"
+#include "record/short_name.hpp"
 #include "report/ci/junit.hpp"
 #include "report/ci/markdown.hpp"
 #include "report/exports/verdict_json.hpp"
@@ -20,16 +21,19 @@ namespace triptych::report {
 namespace {
 
 // Returns further lines about a group that needs attention: its configurations, if there are
-// several, and the command that reproduces it.
+// several; the key of the first one, which for example `accept --only` needs; and the command that
+// reproduces it.
 std::string details_of(const FindingGroup& group, const judge::GateResult& result) {
   if (!is_open(*group.first)) return {};
   std::vector<std::string> lines;
   if (group.members.size() > 1) {
     for (const judge::Finding* each : group.members) {
-      lines.push_back(group.devices.size() > 1
-                          ? fmt::format("{} {}", each->device, each->configuration)
-                          : each->configuration);
+      const std::string name = record::short_name(each->configuration);
+      lines.push_back(group.devices.size() > 1 ? fmt::format("{} {}", each->device, name) : name);
     }
+  }
+  if (const std::string& key = group.first->configuration; !key.empty()) {
+    lines.push_back(fmt::format("key of {}: {}", record::short_name(key), key));
   }
   lines.push_back(command_of(*group.first, result));
   std::string text;

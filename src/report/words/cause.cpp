@@ -24,7 +24,7 @@ std::string with_verb(const std::vector<std::string>& devices, std::string_view 
 }  // namespace
 
 std::string subject(const FindingGroup& group) {
-  return group.configurations == 1 ? group.first->configuration
+  return group.configurations == 1 ? record::short_name(group.first->configuration)
                                    : fmt::format("{} configurations", group.configurations);
 }
 

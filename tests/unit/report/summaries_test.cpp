@@ -2,8 +2,10 @@
 #include <gmock/gmock.h>
 
 #include "findings.hpp"
+#include "report/ci/folder.hpp"
 #include "report/ci/junit.hpp"
 #include "report/ci/markdown.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/well_formed.hpp"
 
 namespace triptych::report {
@@ -33,6 +35,22 @@ TEST(Markdown, ShowsHowCloseImagesAreToTheirBounds) {
   result.findings.back().numbers["ratio"] = 0.25;
   EXPECT_THAT(markdown(result), HasSubstr("| volume/quick | gl:x | 1 | 0.25 | step=1 |"));
   EXPECT_THAT(markdown(some_result()), Not(HasSubstr("largest error / bound")));
+}
+
+// The log uses the same short names as the screen, and the long key only once for each finding.
+TEST(GateLog, NamesConfigurationsLikeTheScreen) {
+  judge::GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  for (const char* step : {"1", "2"}) {
+    result.findings.push_back(finding_of(judge::Check::image, judge::Verdict::regression, "gl:x",
+                                         fmt::format("data=generate:ball:8,step={}", step),
+                                         over_bound(3)));
+  }
+  const test::TemporaryFolder folder;
+  static_cast<void>(write_folder(folder.path(), {&result, 1}, {}));
+  const std::string log = folder.read("gate.log");
+  EXPECT_THAT(log, HasSubstr("\n             ball_8.s2\n"));
+  EXPECT_THAT(log, HasSubstr("key of ball_8.s1: data=generate:ball:8,step=1\n"));
+  EXPECT_THAT(log, Not(HasSubstr("data=generate:ball:8,step=2")));
 }
 
 TEST(Junit, CountsFailuresAndEscapes) {
