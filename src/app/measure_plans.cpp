@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
+#include <set>
+#include <utility>
 
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
@@ -28,8 +31,10 @@ void write_raw(const std::string& text) {
 // Prints the progress of a measurement to a log or a terminal.
 class ProgressPrinter {
  public:
-  explicit ProgressPrinter(const MeasureRequest& request)
-      : log_({.width = terminal_width(), .verbose = request.verbose}) {}
+  ProgressPrinter(const MeasureRequest& request, std::vector<std::pair<std::string, int>> planned)
+      : log_({.width = terminal_width(),
+              .verbose = request.verbose,
+              .planned = std::move(planned)}) {}
 
   void print(const measure::Progress& progress) {
     if (progress.loading) {
@@ -132,6 +137,38 @@ record::RunStart beginning_of(const measure::Listing& listing, const MeasureRequ
   return begun;
 }
 
+// Returns how many configurations of the plan are to be measured, over all devices. If a run is
+// resumed, the configurations that it already contains are measured only if they were requested
+// again.
+int planned_measurements(const RunContext& context, const measure::Plan& plan) {
+  std::optional<record::Run> resumed;
+  if (context.request.resume) resumed = context.store.latest_run(plan.name);
+  if (!resumed) return static_cast<int>(plan.configurations.size() * context.devices.size());
+  const measure::Suite& suite = context.registry.suite(plan.suite);
+  std::size_t planned = 0;
+  for (const std::string& device : context.devices) {
+    const std::set<std::string> stored = context.store.configurations(resumed->id, device);
+    planned += static_cast<std::size_t>(
+        std::ranges::count_if(plan.configurations, [&](const measure::Configuration& each) {
+          const std::string key = measure::configuration_key(suite, each);
+          return !stored.contains(key) || context.request.again.contains({device, key});
+        }));
+  }
+  return static_cast<int>(planned);
+}
+
+// States how much will be measured, if there are several plans: a single plan shows its own
+// progress.
+void announce(const RunContext& context, const std::vector<std::pair<std::string, int>>& planned) {
+  if (planned.size() < 2) return;
+  int measurements = 0;
+  for (const auto& [plan, count] : planned) measurements += count;
+  const std::size_t devices = context.devices.size();
+  print_err("measuring {} configurations of {} plans on {} device{}{}\n", measurements,
+            planned.size(), devices, devices == 1 ? "" : "s",
+            context.request.resume ? ", without those that are already in the store" : "");
+}
+
 std::vector<measure::RunResult> measure_on(const RunContext& context,
                                            const std::vector<measure::Plan>& plans) {
   const measure::RunOptions options = options_of(context.request, context.begun);
@@ -140,7 +177,12 @@ std::vector<measure::RunResult> measure_on(const RunContext& context,
   for (const measure::Plan& plan : plans) {
     runs.push_back({plan, context.registry.suite(plan.suite), options});
   }
-  ProgressPrinter printer(context.request);
+  std::vector<std::pair<std::string, int>> planned;
+  for (const measure::Plan& plan : plans) {
+    planned.emplace_back(plan.name, planned_measurements(context, plan));
+  }
+  announce(context, planned);
+  ProgressPrinter printer(context.request, std::move(planned));
   std::vector<measure::RunResult> results;
   try {
     const LogSection section(context.request.ci, "Measuring");

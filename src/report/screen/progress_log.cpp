@@ -60,7 +60,29 @@ void Heartbeat::restart() {
 }
 
 ProgressLog::ProgressLog(Options options)
-    : options_(std::move(options)), heartbeat_(options_.now), last_(options_.now()) {}
+    : options_(std::move(options)),
+      heartbeat_(options_.now),
+      started_(options_.now()),
+      last_(started_) {}
+
+int ProgressLog::planned_in_all() const {
+  int planned = 0;
+  for (const auto& [plan, count] : options_.planned) planned += count;
+  return planned;
+}
+
+std::size_t ProgressLog::number_of_plan(std::string_view plan) const {
+  const auto found = std::ranges::find(options_.planned, plan, &std::pair<std::string, int>::first);
+  return static_cast<std::size_t>(found - options_.planned.begin()) + 1;
+}
+
+std::chrono::seconds ProgressLog::time_left(const Step& step) const {
+  if (!has_several_plans()) return step.left;
+  if (done_ == 0) return {};
+  const std::chrono::duration<double> elapsed = last_ - started_;
+  const double share = static_cast<double>(std::max(planned_in_all() - done_, 0)) / done_;
+  return std::chrono::round<std::chrono::seconds>(elapsed * share);
+}
 
 void ProgressLog::count(const record::Record& record) {
   const Clock::time_point started = std::exchange(last_, options_.now());
@@ -72,6 +94,7 @@ void ProgressLog::count(const record::Record& record) {
     ++(record.outcome == record::Outcome::skipped ? tally.skipped : tally.failed);
   }
   tally.ended = last_;
+  ++done_;
 }
 
 std::string ProgressLog::line_for(const Step& step) {
@@ -86,13 +109,30 @@ std::string ProgressLog::line_for(const Step& step) {
 }
 
 std::string ProgressLog::bar(const Step& step) const {
-  constexpr int cells = 20;
+  const int cells = has_several_plans() ? 10 : 20;
   const int full = step.total > 0 ? cells * step.done / step.total : 0;
-  const std::string text = fmt::format(
-      "{} [{:#>{}}{:.>{}}] {}/{} {}{}", step.plan, "", full, "", cells - full, step.done,
-      step.total, step.device,
-      step.left.count() > 0 ? ", " + rounded_duration(step.left) + " left" : std::string());
+  const std::chrono::seconds left = time_left(step);
+  const std::string number =
+      has_several_plans()
+          ? fmt::format("plan {}/{} ", number_of_plan(step.plan), options_.planned.size())
+          : std::string();
+  const std::string text =
+      fmt::format("{}{} [{:#>{}}{:.>{}}] {}/{} {}{}", number, step.plan, "", full, "", cells - full,
+                  step.done, step.total, step.device,
+                  left.count() > 0 ? ", " + rounded_duration(left) + " left" : std::string());
   return fitted(text);
+}
+
+// Returns a line for a log to which nothing was written for a while.
+std::string ProgressLog::progress_line(const Step& step) const {
+  std::string text = fmt::format("{}: {} of {}", step.plan, step.done, step.total);
+  if (has_several_plans()) {
+    text +=
+        fmt::format("; all {} plans: {} of {}", options_.planned.size(), done_, planned_in_all());
+  }
+  const std::chrono::seconds left = time_left(step);
+  if (left.count() > 0) text += ", about " + rounded_duration(left) + " left";
+  return core::printable(text) + "\n";
 }
 
 // Shortens the bar so that the last column stays empty. Some terminals wrap a line that fills the
@@ -128,10 +168,7 @@ std::string ProgressLog::next(const Step& step) {
   if (!text.empty()) {
     heartbeat_.restart();
   } else if (heartbeat_.due()) {
-    text = core::printable(fmt::format(
-               "{}: {} of {}{}", step.plan, step.done, step.total,
-               step.left.count() > 0 ? ", about " + rounded_duration(step.left) + " left" : "")) +
-           "\n";
+    text = progress_line(step);
   }
   return text;
 }

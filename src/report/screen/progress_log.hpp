@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "record/record.hpp"
 
@@ -39,13 +40,16 @@ class ProgressLog {
     std::size_t width = 0;                                // width of the terminal; 0 for a log
     bool verbose = false;                                 // write a line for each configuration
     std::function<Clock::time_point()> now = Clock::now;  // replaced by tests
+    // The number of configurations that are to be measured, over all devices, for each plan in the
+    // order of measurement. If there are several plans, the remaining time is that of all of them.
+    std::vector<std::pair<std::string, int>> planned = {};
   };
   struct Step {
     std::string_view plan;
     std::string_view device;
     int done = 0;  // progress of the plan, over all devices
     int total = 0;
-    std::chrono::seconds left{0};
+    std::chrono::seconds left{0};            // remaining time of the plan
     const record::Record* record = nullptr;  // the configuration that was just measured, if any
   };
 
@@ -69,14 +73,23 @@ class ProgressLog {
   };
 
   [[nodiscard]] std::string line_for(const Step& step);
+  [[nodiscard]] std::string progress_line(const Step& step) const;
   [[nodiscard]] std::string bar(const Step& step) const;
   [[nodiscard]] std::string fitted(std::string_view text) const;
   [[nodiscard]] std::string summaries();
   void count(const record::Record& record);
+  [[nodiscard]] bool has_several_plans() const { return options_.planned.size() > 1; }
+  // Returns the number of configurations of all plans that are to be measured.
+  [[nodiscard]] int planned_in_all() const;
+  [[nodiscard]] std::size_t number_of_plan(std::string_view plan) const;
+  // Returns the remaining time: of all plans if there are several, otherwise of the only plan.
+  [[nodiscard]] std::chrono::seconds time_left(const Step& step) const;
 
   Options options_;
   Heartbeat heartbeat_;
+  Clock::time_point started_;
   Clock::time_point last_;  // when the last configuration ended
+  int done_ = 0;            // number of measured configurations of all plans
   std::string plan_;
   std::map<std::pair<std::string, std::string>, Tally> tallies_;  // counts by plan and device
 };

@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "support/well_formed.hpp"
 
@@ -102,6 +105,27 @@ TEST_F(ProgressLogTest, ABarShowsTheTimeLeft) {
                         .left = seconds(200),
                         .record = &record}),
               HasSubstr("1/3 gl:x, 4 min left"));
+}
+
+// The remaining time of a single plan would mislead if further plans follow.
+TEST_F(ProgressLogTest, TheTimeLeftIsThatOfAllPlans) {
+  const auto first_step = [this](ProgressLog& any) {
+    now += seconds(40);
+    const record::Record record = record_of(1);
+    return any.next({.plan = record.plan,
+                     .device = record.device,
+                     .done = 1,
+                     .total = 2,
+                     .left = seconds(40),
+                     .record = &record});
+  };
+  const std::vector<std::pair<std::string, int>> planned{{"volume/quick", 2}, {"volume/stress", 4}};
+  for (const std::size_t width : {0U, 80U}) {
+    ProgressLog one({.width = width, .now = [this] { return now; }, .planned = {planned.front()}});
+    EXPECT_THAT(first_step(one), HasSubstr(" 40 s left"));
+    ProgressLog both({.width = width, .now = [this] { return now; }, .planned = planned});
+    EXPECT_THAT(first_step(both), HasSubstr(" 4 min left"));  // 5 configurations of 40 s
+  }
 }
 
 TEST_F(ProgressLogTest, EscapesNames) {
