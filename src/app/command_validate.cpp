@@ -157,8 +157,9 @@ class Validation {
     judge::add_flakes(cases, results_);
   }
 
-  // Prints the levels and features that the validation has covered, and writes them to coverage.txt
-  // and coverage.json, so that readers know what a pass means.
+  // Writes the levels and features that the validation has covered to coverage.txt and
+  // coverage.json, so that readers know what a pass means, and prints a summary of at most ten
+  // lines.
   void report_coverage(const FeatureTable& features) {
     std::vector<record::Record> records;
     for (const judge::GateResult& result : results_) {
@@ -175,7 +176,9 @@ class Validation {
         core::json_text(
             {{"drawn", report::coverage_json(coverage)}, {"features", feature_json(features)}}, 2) +
             "\n");
-    print_lines(text, stderr);
+    print_lines(report::coverage_summary(coverage) + feature_summary(features), stderr);
+    print_err("all covered levels, largest values and features: {}\n",
+              (folder / "coverage.txt").string());
   }
 
   core::ExitCode report_results(double seconds) {
@@ -337,7 +340,8 @@ void add_validate_command(Commands& commands) {
                                            "Check everything that a new driver must get right: the "
                                            "images, the work counters and the stress scenes",
                                            validate);
-  add_example(command, "triptych validate --device vulkan:lavapipe --out validation");
+  add_example(command,
+              "triptych validate --device vulkan:lavapipe --without-data --out validation");
   command
       .add_option("--device", arguments.devices,
                   "Validate devices that match this glob (repeatable)")

@@ -22,6 +22,9 @@ using FeatureTable = std::map<std::string, std::vector<measure::FeatureRow>>;
 // Returns one line per probe, with the largest size that the probe used, such as "100000 draws",
 // and its error or the reason for its skip.
 [[nodiscard]] std::string feature_text(const FeatureTable& table);
+// Returns a line with the number of probes with each verdict, and a line for each of the first few
+// probes with wrong results.
+[[nodiscard]] std::string feature_summary(const FeatureTable& table);
 [[nodiscard]] core::Json feature_json(const FeatureTable& table);
 
 // Returns regression if any probe returned wrong results, and cannot_judge if no probe returned

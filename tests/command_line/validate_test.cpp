@@ -98,6 +98,17 @@ TEST_F(Validate, RepeatingListsEachCaseWithItsVerdicts) {
   EXPECT_EQ(program.run(std::string(part) + "--repeat 0").code, 3);
 }
 
+// The complete coverage has a hundred lines, so the terminal shows only a summary.
+TEST_F(Validate, PrintsASummaryOfItsCoverageAndHowMuchItMeasures) {
+  const Result result = program.run(part);
+  EXPECT_THAT(result.output, testing::ContainsRegex(
+                                 "measuring [0-9]+ configurations of [0-9]+ plans on 1 device\n"));
+  EXPECT_THAT(result.output, HasSubstr("coverage of null:scripted: "));
+  EXPECT_THAT(result.output, HasSubstr("validation/coverage.txt\n"));
+  EXPECT_THAT(result.output, Not(HasSubstr("largest values in one frame")));
+  EXPECT_THAT(program.read("validation/coverage.txt"), HasSubstr("largest values in one frame"));
+}
+
 TEST_F(Validate, AShardDoesNotLackTheRest) {
   const Result result = program.run(std::string(part) + "--json j.json");
   EXPECT_THAT(program.read("j.json"), Not(HasSubstr("missing rows")));

@@ -97,6 +97,29 @@ std::string coverage_text(const std::map<std::string, Coverage>& coverage) {
   return text;
 }
 
+std::string coverage_summary(const std::map<std::string, Coverage>& coverage) {
+  constexpr std::size_t max_lines = 4;
+  if (coverage.size() > max_lines) {
+    std::size_t configurations = 0;
+    for (const auto& [device, covered] : coverage) configurations += covered.configurations;
+    return fmt::format("coverage: {} configurations were drawn on {} devices\n", configurations,
+                       coverage.size());
+  }
+  std::string text;
+  for (const auto& [device, covered] : coverage) {
+    const auto technique = covered.levels.find("technique");
+    std::size_t levels = 0;
+    for (const auto& [factor, of_factor] : covered.levels) levels += of_factor.size();
+    text += fmt::format(
+        "coverage of {}: {} configurations were drawn, with {} techniques and {} levels of {} "
+        "listed factors\n",
+        device, covered.configurations,
+        technique == covered.levels.end() ? 0 : technique->second.size(), levels,
+        covered.levels.size());
+  }
+  return text;
+}
+
 core::Json coverage_json(const std::map<std::string, Coverage>& coverage) {
   core::Json devices = core::Json::object();
   for (const auto& [device, covered] : coverage) {

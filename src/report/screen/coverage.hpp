@@ -47,7 +47,11 @@ inline constexpr double eight_bit_step = 1.0 / 255;
 [[nodiscard]] double largest_bound(const core::Image& bound);
 [[nodiscard]] std::string bounds_text(std::vector<WideBound> bounds);
 
+// Returns all levels and largest values of each device.
 [[nodiscard]] std::string coverage_text(const std::map<std::string, Coverage>& coverage);
+// Returns a line for each device, or a single line for all devices if there are many: how many
+// configurations, factors and levels were drawn.
+[[nodiscard]] std::string coverage_summary(const std::map<std::string, Coverage>& coverage);
 [[nodiscard]] core::Json coverage_json(const std::map<std::string, Coverage>& coverage);
 
 }  // namespace triptych::report
