@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
@@ -27,7 +28,7 @@ class Scripts(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())).resolve()
         self.checkout = self.folder / "checkout"
-        for script in ("gate", "fresh", "root", "arm64", "setup", "package", "fuzz"):
+        for script in ("gate", "build", "fresh", "root", "arm64", "setup", "package", "fuzz"):
             self.put(f"checkout/ci/{script}", (ROOT / "ci" / script).read_text(encoding="utf-8"))
         for name, text in STAND_INS.items():
             self.put(f"bin/{name}", f"#!/bin/bash\n{text}\n")
@@ -38,10 +39,10 @@ class Scripts(unittest.TestCase):
         file.write_text(text, encoding="utf-8")
         file.chmod(0o755)
 
-    def run_script(self, script, *words, folder=None):
+    def run_script(self, script, *words, folder=None, **environment):
         return subprocess.run([script, *map(str, words)], cwd=folder or self.checkout, capture_output=True, text=True,
                               env={**os.environ, "PATH": f"{self.folder}/bin:{os.environ['PATH']}", "TMPDIR": str(self.folder),
-                                   "CALLS": str(self.folder / "calls")})
+                                   "CALLS": str(self.folder / "calls"), **environment})
 
     def test_help_and_usage_from_anywhere(self):
         for script in ("setup", "package", "fuzz"):
@@ -49,6 +50,24 @@ class Scripts(unittest.TestCase):
                 done = self.run_script(f"checkout/ci/{script}", word, folder=self.folder)
                 self.assertEqual(done.returncode, code, script + done.stderr)
                 self.assertIn(f"ci/{script} [", done.stdout + done.stderr)
+
+    def test_a_build_reports_its_progress_and_its_time(self):
+        self.put("bin/cmake", "#!/bin/sh\n[ \"$1\" != --build ] || { echo \"${NINJA_STATUS%%%*}3/12] Building\"; sleep 2; }\n")
+        done = self.run_script("ci/build", "release", "triptych", PROGRESS_S="0.5")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"\nbuild: 3 of 12 steps done after \d+ s\n(.*\n)*build: done in \d+ s\n$")
+        self.put("bin/cmake", "#!/bin/sh\necho FAILED; exit 1\n")
+        started = time.monotonic()
+        done = self.run_script("ci/build", "release", PROGRESS_S="60")
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        self.assertLess(time.monotonic() - started, 30, "the caller must not wait for the next progress line")
+
+    def test_a_gate_states_the_time_of_each_phase(self):
+        for name in ("ci/setup", "ci/build", "ci/environment", "build/release/src/app/triptych"):
+            self.put(f"checkout/{name}", "#!/bin/sh\n")
+        done = self.run_script("ci/gate")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertRegex(done.stdout, r"gate: installing took \d+ s, and building \d+ s")
 
     def test_a_gate_that_ends_early_leaves_no_earlier_verdict(self):
         self.put("checkout/ci/setup", "#!/bin/sh\nexit 3\n")
