@@ -106,6 +106,8 @@ class Examples : public testing::TestWithParam<Job (*)()> {
     right_ = fmt::format("{{{}}}", images);
     right_with_more_work_ = fmt::format(R"({{{}, "extra_samples": 5}})", images);
     fs::create_directory(program.folder() / "bin");
+    fs::create_directories(program.folder() / "mesa/share/vulkan/icd.d");
+    program.write("mesa/share/vulkan/icd.d/lvp_icd.json", "{}");
     make("triptych", fmt::format(stand_in, TRIPTYCH_PROGRAM, tiny));
     make("apt-get", "#!/bin/sh\n");
     make("git", stand_in_git);
@@ -207,13 +209,26 @@ TEST_P(Examples, KeepAllArtifactsAndAnnotate) {
 
 // All later steps must use the user's own driver.
 TEST_P(Examples, UseADriverFromTheRepository) {
-  const fs::path icd = program.folder() / "mesa/share/vulkan/icd.d";
-  fs::create_directories(icd);
-  program.write("mesa/share/vulkan/icd.d/lvp_icd.json", "{}");
   program.write("bin/triptych",
-                "#!/bin/sh\necho \"driver: $VK_DRIVER_FILES\"\nmkdir -p out\n"
+                "#!/bin/sh\necho \"driver: $VK_DRIVER_FILES in $LD_LIBRARY_PATH\"\nmkdir -p out\n"
                 "touch out/summary.md\n");
-  EXPECT_THAT(pass().output, HasSubstr("driver: " + (icd / "lvp_icd.json").string()));
+  const std::string mesa = (program.folder() / "mesa").string();
+  EXPECT_THAT(pass().output, HasSubstr("driver: " + mesa + "/share/vulkan/icd.d/lvp_icd.json in " +
+                                       mesa + "/lib/x86_64-linux-gnu\n"));
+}
+
+// If the driver under test is missing, a pass of the distribution's driver would mislead.
+TEST_P(Examples, FailWithoutTheDriverUnderTest) {
+  fs::remove_all(program.folder() / "mesa");
+  EXPECT_EQ(pass().code, 3);
+  EXPECT_FALSE(fs::exists(program.folder() / "out/gate.sqlite"));
+}
+
+// If the repository has lost its baselines, a comparison with others would mislead.
+TEST_P(Examples, DoNotUseTheBaselinesThatComeWithTriptych) {
+  program.write("bin/triptych",
+                "#!/bin/sh\necho \"arguments: $*\"\nmkdir -p out\ntouch out/summary.md\n");
+  EXPECT_THAT(pass().output, testing::ContainsRegex("arguments: gate .*--baselines baselines "));
 }
 
 // This takes about ten minutes, so it runs only if a package for the release is given.
@@ -233,6 +248,9 @@ TEST_P(Examples, RunInAMinimalSystem) {
   std::string& step = job.steps.back();
   step.replace(step.find(gate), gate.size(),
                gate + " --inject 'slowdown:5@*technique=raycast,*' volume/cost");
+  // The system has only the baselines that come with the package.
+  const std::string own = " --without cost --baselines baselines";
+  step.replace(step.find(own), own.size(), "");
   program.write("job", script_of(job));
   const Result done = test::run_command(
       fmt::format("'{}/ci/fresh' --deb '{}' {} \"$(cat '{}/job')\"", TRIPTYCH_SOURCE_FOLDER,
