@@ -50,7 +50,7 @@ def commands(page):
 def small(words):
     """Returns the same command with the scripted device, with plans of one scene, and with files in the test's own
     folder."""
-    words = re.sub(r"'?(?:vulkan|gl|opencl):[\w*-]+(?:,[A-Z_]+=\w+)?'?", "null:scripted", words.removesuffix("'"))
+    words = re.sub(r"'?(?:vulkan|gl|opencl):[\w*-]+(?:,[A-Z_]+=\w+)?'?", "null:scripted", words.removesuffix("'").partition(" || ")[0])
     words = re.sub(r"\b(volume|particles)/(\w+)", r"\1-\2.yaml", words).replace("/tmp/", "")
     words = re.sub(r"\S*build/\S*/triptych\b", PROGRAM, words).replace('"…"', "documented").replace("7/4000", "1/1")
     name = words.split()[0]
@@ -63,7 +63,7 @@ def small(words):
         words = re.sub(r" --set \S+", "", words)
         words += " --set technique=raycast --set data=generate:gaussian_blob:8 --set transfer_function=surfaces --set viewport=8"
     if name in ("gate", "accept"):
-        words += " --baselines baselines" if "--base " not in words else ""
+        words += " --baselines baselines" if "--base" not in words else ""  # neither --base nor --baselines
     if name in ("gate", "run") and "--device" not in words:
         words += " --device null:scripted"
     if name == "devices":

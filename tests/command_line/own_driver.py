@@ -34,8 +34,11 @@ class OwnDriver(unittest.TestCase):
         (self.folder / "bin/triptych").symlink_to(os.environ["TRIPTYCH_PROGRAM"])
         installed = self.folder / "mesa/share/vulkan/icd.d"
         installed.mkdir(parents=True)
-        newer = with_newer_driver("readlink -f \"$VK_DRIVER_FILES\"", self.folder).stdout.strip()
-        (installed / "lvp_icd.x86_64.json").symlink_to(newer)
+        newer = with_newer_driver("readlink -f \"$VK_DRIVER_FILES\"; readlink -f \"${LD_LIBRARY_PATH%%:*}\"", self.folder)
+        manifest, libraries = newer.stdout.split()
+        (installed / "lvp_icd.x86_64.json").symlink_to(manifest)
+        (self.folder / "mesa/lib").mkdir()
+        (self.folder / "mesa/lib/x86_64-linux-gnu").symlink_to(libraries)
 
     def gate(self, *options):
         """Runs the command from docs/ci.md with a small plan and the options."""
