@@ -51,17 +51,13 @@ class EnergyMeters::Span {
   // and `ns` nanoseconds, and `range` is Meter::range.
   void update(std::uint64_t microjoules, int frames, double ns, std::uint64_t range) {
     if (seen_ && microjoules != last_) {
-      if (updated_) {
-        if (microjoules > last_)
-          sum_ += microjoules - last_;
-        else if (range > last_)
-          sum_ += range - last_ + microjoules;
+      const bool known = microjoules > last_ || range > last_;
+      if (updated_ && known) {
+        sum_ += microjoules > last_ ? microjoules - last_ : range - last_ + microjoules;
         frames_ = frames - first_frame_;
         ns_ = ns - first_ns_;
       } else {
-        first_frame_ = frames;
-        first_ns_ = ns;
-        updated_ = true;
+        start(frames, ns);
       }
     }
     seen_ = true;
@@ -77,6 +73,17 @@ class EnergyMeters::Span {
   }
 
  private:
+  // Begins the span at an update of the meter. A span begins again if the meter was reset, because
+  // the energy since the previous update is then unknown.
+  void start(int frames, double ns) {
+    first_frame_ = frames;
+    first_ns_ = ns;
+    updated_ = true;
+    sum_ = 0;
+    frames_ = 0;
+    ns_ = 0;
+  }
+
   bool seen_ = false, updated_ = false;
   std::uint64_t last_ = 0, sum_ = 0;
   int first_frame_ = 0, frames_ = 0;

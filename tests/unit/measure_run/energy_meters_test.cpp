@@ -97,6 +97,21 @@ TEST_F(EnergyMetersTest, ACounterMayWrap) {
   EXPECT_THAT(energy, ElementsAre(Pair("package-0", 300)));
 }
 
+// The meter of an Intel GPU does not state its largest value. If its value falls, the energy since
+// the previous update is unknown, so neither the energy nor the frames of that interval may count.
+TEST_F(EnergyMetersTest, AMeterWithoutRangeThatIsResetStartsAgain) {
+  write("hwmon/hwmon1/name", "xe");
+  write("hwmon/hwmon1/energy1_input", "9000");
+  int drawn = 0;
+  const record::Counts energy = meters().energy_per_frame([&] {
+    take_a_while();
+    ++drawn;
+    write("hwmon/hwmon1/energy1_input", std::to_string((drawn < 5 ? 9000 : 0) + 300 * drawn));
+  });
+  EXPECT_THAT(energy, ElementsAre(Pair("xe-0", 300)));
+  EXPECT_GT(drawn, 5);
+}
+
 TEST_F(EnergyMetersTest, AMeterThatDoesNotChangeIsIgnoredAfterASecond) {
   zone("intel-rapl:0", "package-0", "1000");
   zone("intel-rapl:1", "package-1", "1000");
