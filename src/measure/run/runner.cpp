@@ -28,6 +28,11 @@ std::vector<std::string> kinds_of(const Plan& plan, const Protocol& protocol) {
   return plan.timed() && needs_clock ? work_kinds(plan) : std::vector<std::string>{};
 }
 
+// Returns whether frames are timed: both the plan and the options must ask for it.
+bool is_timed(const Plan& plan, const RunOptions& options) {
+  return plan.timed() && options.protocol.timed;
+}
+
 // Throws InputError if the run that is to be resumed contains a configuration that the plan does
 // not contain. This can happen because the run is found only by the plan's name, and the plan may
 // have changed since the run began.
@@ -240,8 +245,8 @@ std::vector<RunResult> run_plans(std::span<const PlannedRun> runs,
                              interrupts,
                              open_run(each, devices, store),
                              kinds_of(plan, options.protocol)};
-    const bool timed = context.plan.timed() && options.protocol.timed;
-    const bool in_parallel = !timed && (devices.size() > 1 || options.jobs > 1 || plan.compiled());
+    const bool in_parallel =
+        !is_timed(plan, options) && (devices.size() > 1 || options.jobs > 1 || plan.compiled());
     results.push_back(in_parallel ? measure_devices_in_parallel(context, devices, on_progress)
                                   : PlanRun(context, devices, on_progress).measure_all());
   }
@@ -262,7 +267,9 @@ std::array<RunResult, 2> run_sides(const SidesRun& sides, record::Store& store,
                         kinds_of(planned.plan, planned.options.protocol)});
     parts.push_back({&contexts.back(), sides.devices[i]});
   }
-  if (!sides.plan.timed()) {
+  const bool timed = std::ranges::any_of(
+      sides.options, [&](const RunOptions& options) { return is_timed(sides.plan, options); });
+  if (!timed) {
     std::vector<RunResult> results = measure_in_parallel(parts, processors(), on_progress);
     return {std::move(results[0]), std::move(results[1])};
   }

@@ -178,7 +178,7 @@ class Worker {
       prepared_.reset();
       require_execution();
       Configuration configuration = hold.configuration;
-      prepared_ = device_->prepare(supported_work(configuration, hold.faults));
+      prepared_ = device_->prepare(work_or_skip(configuration, hold.faults));
       proof_.emplace(*prepared_);
     });
   }

@@ -142,6 +142,22 @@ TEST_F(TurnsTest, ACrashAffectsOneConfigurationAndReportsItsSide) {
   EXPECT_EQ(started_workers().size(), 3U);
 }
 
+TEST_F(TurnsTest, BrokenInputIsSkippedLikeInARun) {
+  Interleaved interleaved = open();
+  Configuration torn = configuration();
+  torn["data"] = "torn";
+  try {
+    interleaved.hold(torn, {}, SideClock::wall);
+    FAIL() << "nothing was thrown";
+  } catch (const SideEnded& error) {
+    EXPECT_EQ(error.outcome(), Outcome::skipped);
+    EXPECT_EQ(error.reason().cause, record::Cause::bad_input);
+    EXPECT_EQ(error.reason().detail, "torn:3: the file ends here");
+  }
+  hold(interleaved);
+  EXPECT_EQ(started_workers().size(), 2U);
+}
+
 TEST_F(TurnsTest, AHangEndsAtItsTimeLimit) {
   options_.limit = hang_limit;
   Interleaved interleaved = open();

@@ -160,6 +160,27 @@ TEST_F(RunTest, AnInjectedSlowdownIsThatMuchMoreWork) {
   }
 }
 
+// Sides that are measured in parallel report their joint progress, so the last report counts the
+// configurations of both sides. Otherwise, it counts only those of the second side.
+TEST_F(RunTest, SidesRunInParallelUnlessTheyAreTimed) {
+  const auto total = [this](bool timed) {
+    options.protocol = brief_protocol;
+    options.protocol.timed = timed;
+    const Plan both = small_plan();
+    record::Store store = open_store();
+    int last = 0;
+    const auto results =
+        run_sides({both, suite, {"null:scripted", "null:scripted"}, {options, options}}, store,
+                  [&last](const Progress& progress) {
+                    if (!progress.loading) last = std::max(last, progress.total);
+                  });
+    EXPECT_EQ(results[0].measured + results[1].measured, 8);
+    return last;
+  };
+  EXPECT_EQ(total(true), 4);
+  EXPECT_EQ(total(false), 8);
+}
+
 TEST_F(RunTest, UnknownFaultsAndLpPerfAreRejectedBeforeMeasuring) {
   options.faults = {{"gremlin", ""}};
   EXPECT_THROW(run(small_plan()), core::InputError);
