@@ -33,6 +33,21 @@ constexpr std::array<EnvironmentDefault, 2> defaults{{
     {"POCL_PTHREAD_MIN_WGS", "1", "opencl:"},
 }};
 
+// Environment variables that name the drivers to load, or the folders in which loaders search for
+// drivers.
+constexpr std::array<const char*, 12> driver_variables{"GALLIUM_DRIVER",
+                                                       "LD_LIBRARY_PATH",
+                                                       "LD_PRELOAD",
+                                                       "LIBGL_DRIVERS_PATH",
+                                                       "MESA_LOADER_DRIVER_OVERRIDE",
+                                                       "OCL_ICD_FILENAMES",
+                                                       "OCL_ICD_VENDORS",
+                                                       "VK_ADD_DRIVER_FILES",
+                                                       "VK_DRIVER_FILES",
+                                                       "VK_ICD_FILENAMES",
+                                                       "__EGL_VENDOR_LIBRARY_DIRS",
+                                                       "__EGL_VENDOR_LIBRARY_FILENAMES"};
+
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? std::string() : std::string(value);
@@ -179,6 +194,19 @@ std::vector<std::string> parse_environment(std::string_view text, const std::str
     if (end == std::string_view::npos) return environment;
     rest.remove_prefix(end + 1);
   }
+}
+
+std::vector<std::string> differing_driver_variables(std::span<const std::string> a,
+                                                    std::span<const std::string> b) {
+  const auto value = [](const char* name, std::span<const std::string> overrides) {
+    const auto found = std::ranges::find(overrides, std::string_view(name), variable_name);
+    return found == overrides.end() ? variable(name) : found->substr(found->find('=') + 1);
+  };
+  std::vector<std::string> names;
+  for (const char* name : driver_variables) {
+    if (value(name, a) != value(name, b)) names.emplace_back(name);
+  }
+  return names;
 }
 
 std::optional<std::string> reason_not_to_measure() {

@@ -48,6 +48,12 @@ class CacheFolder {
 [[nodiscard]] std::vector<std::string> parse_environment(std::string_view text,
                                                          const std::string& where);
 
+// Returns the names of the variables that select a driver, such as VK_DRIVER_FILES, and whose
+// values differ between two workers. Each argument contains the variables ("NAME=VALUE") that are
+// set for one of the workers. A worker inherits all other variables from this process.
+[[nodiscard]] std::vector<std::string> differing_driver_variables(std::span<const std::string> a,
+                                                                  std::span<const std::string> b);
+
 // Returns the reason why the environment variables of this process make measuring impossible, or
 // nullopt if there is no such reason. For example, LP_PERF makes llvmpipe skip work, so that times
 // and images would be wrong.

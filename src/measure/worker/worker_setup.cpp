@@ -26,6 +26,15 @@ void separate_shader_caches(std::vector<std::string>& environment) {
   environment.push_back(fmt::format("{}={{cache}}/mesa", name));
 }
 
+// Sets a variable ("NAME=VALUE"). The variables of a device that only compiles replace those of the
+// user, because they were derived from them: VK_DRIVER_FILES, for example, becomes the driver of
+// that device in the folder that the user's VK_DRIVER_FILES names.
+void replace_variable(std::string entry, std::vector<std::string>& environment) {
+  const std::string name = entry.substr(0, entry.find('=') + 1);
+  std::erase_if(environment, [&](const std::string& each) { return each.starts_with(name); });
+  environment.push_back(std::move(entry));
+}
+
 // Returns the variables that override the environment of a worker whose instructions are counted,
 // and of the worker that fills its cache folder with compiled code (ahead_setup()).
 std::vector<std::string> counted_overrides(const SideOptions& side) {
@@ -60,7 +69,7 @@ WorkerSetup worker_setup(const SideOptions& side, bool counted, const CacheFolde
   }
   if (!counted) {
     for (std::string& each : compile_only_environment(side.device, side.environment)) {
-      overrides.push_back(std::move(each));
+      replace_variable(std::move(each), overrides);
     }
   }
   setup.environment = worker_environment(side.device, cache, overrides);

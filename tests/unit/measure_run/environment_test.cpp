@@ -1,5 +1,6 @@
 #include "measure/system/environment.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -7,7 +8,9 @@
 #include <cstdlib>
 
 #include "core/error.hpp"
+#include "core/file.hpp"
 #include "core/private_folder.hpp"
+#include "measure/worker/worker_setup.hpp"
 #include "tests/unit/measure_run/scratch.hpp"
 
 namespace triptych::measure {
@@ -26,6 +29,18 @@ TEST(ParseEnvironment, AValueMayHoldCommas) {
   for (const char* text : {"", "A", "1=2", ",A=1"}) {
     EXPECT_THROW(static_cast<void>(parse_environment(text, "--a")), core::InputError) << text;
   }
+}
+
+TEST(DriverVariables, DifferOnlyIfTheirValuesDiffer) {
+  const Variable inherited("VK_DRIVER_FILES", "/a.json");
+  const Variable library("LD_LIBRARY_PATH");
+  const auto differing = [](std::vector<std::string> a, std::vector<std::string> b) {
+    return differing_driver_variables(a, b);
+  };
+  EXPECT_THAT(differing({"VK_DRIVER_FILES=/a.json"}, {}), testing::IsEmpty());
+  EXPECT_THAT(differing({"LP_NATIVE_VECTOR_WIDTH=128"}, {}), testing::IsEmpty());
+  EXPECT_THAT(differing({}, {"VK_DRIVER_FILES=/b.json", "LD_LIBRARY_PATH=/b"}),
+              testing::ElementsAre("LD_LIBRARY_PATH", "VK_DRIVER_FILES"));
 }
 
 TEST(WorkerEnvironment, SetsDefaultsForPoclOnly) {
@@ -69,6 +84,26 @@ TEST(WorkerEnvironment, RemovesFlagsOfGoogleBenchmark) {
   const Variable flag("BENCHMARK_LIST_TESTS", "true");
   const CacheFolder cache("null:scripted");
   EXPECT_THAT(worker_environment("null:scripted", cache), Each(Not(StartsWith("BENCHMARK_"))));
+}
+
+// The file `environment` of ci/drivers/fetch names the manifest of lavapipe. The worker of a device
+// that only compiles must load the driver of that device from the same folder instead.
+TEST(WorkerSetup, ACompilerReplacesTheDriverInTheSameFolder) {
+  const ScratchFolder scratch;
+  const Variable cache_home("XDG_CACHE_HOME", scratch.path().string());
+  const std::string library = (scratch.path() / "libradv.so").string();
+  const std::string radv = (scratch.path() / "radeon_icd.json").string();
+  const std::string lavapipe = (scratch.path() / "lvp_icd.json").string();
+  core::write_file("RADV_FORCE_FAMILY", library);
+  core::write_file(fmt::format(R"({{"ICD": {{"library_path": "{}"}}}})", library), radv);
+  core::write_file("{}", lavapipe);
+  const SideOptions side{.device = "vulkan:radv-navi31",
+                         .command = {"worker"},
+                         .environment = {"VK_DRIVER_FILES=" + lavapipe}};
+  const CacheFolder cache(cache_name(side, false));
+  const auto environment = worker_setup(side, false, cache, std::chrono::seconds(1)).environment;
+  EXPECT_THAT(environment, Contains("VK_DRIVER_FILES=" + radv));
+  EXPECT_THAT(environment, Not(Contains("VK_DRIVER_FILES=" + lavapipe)));
 }
 
 TEST(CacheFolder, IsLockedByOneProcessAndReused) {
