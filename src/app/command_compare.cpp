@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -52,26 +53,31 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
   return side;
 }
 
-// Returns the records of the latest run. For each device that is missing from the latest run, also
-// returns its records from the most recent run of the same plan that contains the device. This is
-// needed because `compare --store` writes a separate run for each side.
+// Returns the records of the latest run that contains each device. They are followed by the records
+// of earlier runs that used the same device, driver version and program, because each run has its
+// own worker processes. A device may be missing from the latest run, because `compare --store`
+// writes a separate run for each side.
 std::vector<record::Record> records_of_all_devices(const record::Store& store,
                                                    const record::Run& latest) {
+  const auto program = [](const record::Run& run) {
+    const auto found = run.system.find("triptych");
+    return found == run.system.end() ? std::string() : found->second;
+  };
   std::vector<record::Record> records;
-  std::set<std::string> devices;
+  std::map<std::string, std::pair<std::string, std::string>> setups;  // device key and program
   std::vector<record::Run> runs = store.runs();
   std::ranges::reverse(runs);
   for (const record::Run& run : runs) {
     if (run.plan != latest.plan || run.plan_hash != latest.plan_hash) continue;
-    std::set<std::string> new_devices;
+    std::set<std::string> devices;
     for (const auto& entry : store.devices(run.id)) {
-      if (!devices.contains(entry.device.id)) new_devices.insert(entry.device.id);
+      const std::pair setup{entry.device.key(), program(run)};
+      const auto& first = setups.try_emplace(entry.device.id, setup).first->second;
+      if (setup == first) devices.insert(entry.device.id);
     }
-    if (new_devices.empty()) continue;
     for (record::Record& record : store.records(run.id)) {
-      if (new_devices.contains(record.device)) records.push_back(std::move(record));
+      if (devices.contains(record.device)) records.push_back(std::move(record));
     }
-    devices.merge(new_devices);
   }
   return records;
 }
@@ -128,6 +134,7 @@ struct DiffArguments {
   std::string a;
   std::string b;
   std::vector<std::string> devices;
+  bool verbose = false;
   bool json = false;
 };
 
@@ -145,7 +152,7 @@ core::ExitCode diff(const DiffArguments& arguments) {
   if (arguments.json) {
     print(report::to_json(found));
   } else {
-    print_lines(report::screen_of(found));
+    print_lines(report::screen_of(found, arguments.verbose));
   }
   return found.exit_code();
 }
@@ -161,6 +168,8 @@ void add_diff_command(Commands& commands) {
       .add_option("NEW", arguments.b, "Store to compare with OLD; it must contain the same plans")
       ->required();
   add_devices_option(command, arguments.devices);
+  command.add_flag("--verbose", arguments.verbose,
+                   "List every configuration with a difference, the largest differences first");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
 }
 
@@ -204,7 +213,9 @@ void add_compare_commands(Commands& commands) {
   add_inject_option(command, request.faults,
                     "Inject a fault into side b to check that the comparison detects it; see "
                     "`triptych run --help`");
-  add_verbose_option(command, request.verbose);
+  command.add_flag("--verbose", request.verbose,
+                   "Print one line for each measured configuration, and list every configuration "
+                   "with a difference or an undecided time");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
 }
 

@@ -54,9 +54,25 @@ class ComparisonPrinter {
   report::Heartbeat heartbeat_;
 };
 
+// Returns a default plan of the suite that counts instructions. Returns "" if a side is not a
+// processor, because instructions are counted only on processors.
+std::string exact_plan(const measure::Plan& plan, const comparison::ComparisonResult& result,
+                       const Registry& registry) {
+  if (plan.counted() || result.a.cpu_features.empty() || result.b.cpu_features.empty()) return {};
+  for (const std::string& each : default_plans) {
+    const measure::Plan other = measure::load_plan(each, {}, registry.find_suite());
+    if (other.suite == plan.suite && other.counted()) return each;
+  }
+  return {};
+}
+
 report::ComparisonCommand command_of(const ComparisonRequest& request, const std::string& typed,
                                      const measure::Plan& plan) {
-  report::ComparisonCommand command{.plan = typed, .sides = request.sides, .varied = plan.varied};
+  report::ComparisonCommand command{.plan = typed,
+                                    .sides = request.sides,
+                                    .varied = plan.varied,
+                                    .base = request.base,
+                                    .verbose = request.verbose};
   for (const std::string& each : request.faults)
     command.sides += " --inject " + core::shell_quoted(each);
   // If --set gives a factor a single level, the factor no longer varies in the plan, but the
@@ -102,7 +118,9 @@ class Comparer {
         options, registry_.suite(options.plan.suite), store_, truths_,
         [&](const comparison::ComparisonProgress& progress) { printer.print(progress); });
     clear_line();
-    return {std::move(result), command_of(request, typed, options.plan)};
+    report::ComparisonCommand command = command_of(request, typed, options.plan);
+    command.exact_plan = exact_plan(options.plan, result, registry_);
+    return {std::move(result), std::move(command)};
   }
 
  private:
@@ -197,8 +215,11 @@ std::vector<ComparisonRequest> comparisons_with_base(const std::string& base,
     std::string sides =
         fmt::format("--a {} --b {}", core::shell_quoted(a), core::shell_quoted(device));
     if (program) sides += " --a-program " + core::shell_quoted(base);
-    comparisons.push_back(
-        {.plans = {}, .a = {device, command, environment}, .b = {device, own}, .sides = sides});
+    comparisons.push_back({.plans = {},
+                           .a = {device, command, environment},
+                           .b = {device, own},
+                           .sides = sides,
+                           .base = true});
   }
   return comparisons;
 }

@@ -27,6 +27,7 @@ struct ComparisonRequest {
   std::uint64_t seed = 1;
   bool times = true;
   bool verbose = false;
+  bool base = false;  // whether side a is the argument of `gate --base`
 };
 
 // Compares the sides, prints the differences, and returns the exit code for all comparisons.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "comparison/times.hpp"
+#include "measure/system/environment.hpp"
 #include "measure/system/stopwatch.hpp"
 
 namespace triptych::comparison {
@@ -26,6 +27,16 @@ void require_opened(const record::Store& store, const record::Record* record) {
   if (store.devices(record->run).empty()) {
     throw record::NotMeasured(record::Outcome::skipped, record->reason);
   }
+}
+
+// Returns the variables that select a driver and differ between the sides, if both sides have
+// loaded the same version of the same driver nevertheless.
+std::vector<std::string> ineffective_variables(const ComparisonOptions& options,
+                                               const record::Device& a, const record::Device& b) {
+  const bool same_driver = a.id == b.id && a.driver == b.driver &&
+                           a.driver_version == b.driver_version && a.api_version == b.api_version;
+  if (!same_driver) return {};
+  return measure::differing_driver_variables(options.a.environment, options.b.environment);
 }
 
 RunSide side_of(const record::Store& store, const measure::RunResult& result) {
@@ -86,11 +97,17 @@ ComparisonResult compare(const ComparisonOptions& options, const measure::Suite&
   const bool same_setup =
       options.a.environment == options.b.environment && options.a.command == options.b.command;
   RunDiff diff = diff_runs(a, b, truths, same_setup);
-  ComparisonResult result{.a = a.device,
-                          .b = b.device,
-                          .timed = options.times && options.plan.timed(),
-                          .device = std::move(diff.device),
-                          .configurations = {}};
+  ComparisonResult result{
+      .a = a.device,
+      .b = b.device,
+      .timed = options.times && options.plan.timed(),
+      .device = std::move(diff.device),
+      .environment = {options.a.environment, options.b.environment},
+      .clocks = {store.devices(runs[0].run).at(0).clocks, store.devices(runs[1].run).at(0).clocks},
+      .ineffective_variables = ineffective_variables(options, a.device, b.device)};
+  if (options.a.command != options.b.command) {
+    result.programs = {options.a.command.at(0), options.b.command.at(0)};
+  }
   std::map<std::string, const measure::Configuration*> by_key;
   for (const measure::Configuration& each : options.plan.configurations) {
     by_key[measure::configuration_key(suite, each)] = &each;
@@ -98,7 +115,9 @@ ComparisonResult compare(const ComparisonOptions& options, const measure::Suite&
   for (const ConfigurationDiff& each : diff.configurations) {
     result.configurations.push_back(compared_configuration(each, *by_key.at(each.key)));
   }
-  if (result.timed) measure_times(options, stopwatch, on_progress, result.configurations);
+  if (result.timed) {
+    result.other_load = measure_times(options, stopwatch, on_progress, result.configurations);
+  }
   result.seconds = stopwatch.seconds();
   return result;
 }

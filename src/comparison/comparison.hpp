@@ -39,8 +39,10 @@ struct ComparisonOptions {
   ConfirmationDesign confirmation;
 };
 
-// The frame times of one side: the median and the quartiles over all blocks of its first process
-// run (the lifetime of one worker process).
+// The frame times of one side: the median and the quartiles over the blocks from which the shift
+// was estimated. These are the blocks of all fresh process runs (lifetimes of worker processes) if
+// the configuration was measured again to confirm its result, and otherwise those of the first
+// process run.
 using SideTime = record::Summary;
 
 // The results of comparing one configuration.
@@ -58,7 +60,8 @@ struct ComparedConfiguration {
   int frames_per_batch = 1;
   measure::SideClock clock = measure::SideClock::wall;
   WallClockCause wall_clock_cause = WallClockCause::none;
-  double seconds = 0;                                 // time spent on this configuration
+  bool out_of_budget = false;  // whether measuring ended because the time budget was used up
+  double seconds = 0;          // time spent on this configuration
   std::optional<std::array<SideTime, 2>> times = {};  // frame times of a and b, in ns
   std::optional<judge::WorkChange> work;
   std::vector<Difference> differences;
@@ -71,17 +74,43 @@ struct ComparedConfiguration {
   [[nodiscard]] bool has_time() const { return blocks > 0 && !ended; }
 };
 
+// The time ratios of all configurations together.
+struct OverallTime {
+  int decided = 0;    // number of configurations with a verdict other than `undecided`
+  int undecided = 0;  // number of configurations that were timed without a verdict
+  int averaged = 0;   // number of configurations whose confidence interval is finite
+  // The mean of the shifts of the averaged configurations. Each end of the interval is the mean of
+  // the corresponding ends of their intervals. The standard error of a mean is at most the mean of
+  // the standard errors, so the interval is wide enough even if the errors of all configurations
+  // are correlated, for example because the machine was busy.
+  Shift shift;
+};
+
 struct ComparisonResult {
   record::Device a;
   record::Device b;
   bool timed = false;
-  std::vector<Difference> device;  // differences between the devices, such as in their limits
-  std::vector<ComparedConfiguration> configurations;  // in the plan's order
+  std::vector<Difference> device = {};  // differences between the devices, such as in their limits
+  std::vector<ComparedConfiguration> configurations = {};  // in the plan's order
   double seconds = 0;
+  // The environment variables ("NAME=VALUE") that were set for each side.
+  std::array<std::vector<std::string>, 2> environment = {};
+  std::array<std::string, 2> programs = {};  // set if the sides run different builds of Triptych
+  std::array<std::vector<record::ClockTrust>, 2> clocks = {};
+  // The variables that select a driver and differ between the sides, if both sides have loaded the
+  // same version of the same driver nevertheless. The driver was then compared with itself, unless
+  // two builds of one version exist.
+  std::vector<std::string> ineffective_variables = {};
+  // The mean number of threads of other programs that were ready to run per CPU core, sampled after
+  // each block of interleaved times. At these moments, both workers wait for a request.
+  std::optional<double> other_load = {};
 
   [[nodiscard]] core::ExitCode exit_code() const;
   // Groups all differences except timing differences.
   [[nodiscard]] std::vector<DifferenceGroup> groups() const;
+  // Returns nullopt unless times with finite intervals were measured for two or more
+  // configurations.
+  [[nodiscard]] std::optional<OverallTime> overall_time() const;
 };
 
 enum class ComparisonStage : std::uint8_t {

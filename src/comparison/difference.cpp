@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <tuple>
 
 #include "comparison/time_reason.hpp"
@@ -82,18 +84,33 @@ double size_of(double ratio) {
   return std::abs(std::log(ratio));
 }
 
-void add(const LocatedDifference& located, DifferenceGroup& group) {
-  const auto& [where, difference] = located;
-  ++group.count;
-  if (!difference.ratio) return;
-  const double ratio = *difference.ratio;
-  auto& ratios = group.ratios;
-  if (!ratios || size_of(ratio) > std::max(size_of(ratios->first), size_of(ratios->second))) {
-    group.difference = difference;
-    group.where = where;
+// Returns the largest relative change of a code statistic that affects the verdict. A statistic
+// that was 0 before, such as spilled registers, has an infinite change.
+double size_of(const judge::CodeComparison& code, bool only_worse) {
+  double largest = 0;
+  for (const judge::CodeChange& each : code.changes) {
+    if (!each.statistic.decides || (only_worse && !each.worse())) continue;
+    const bool both = each.before > 0 && each.now > 0;
+    largest = std::max(
+        largest, both ? size_of(each.now / each.before) : std::numeric_limits<double>::infinity());
   }
-  ratios = ratios ? std::pair(std::min(ratios->first, ratio), std::max(ratios->second, ratio))
-                  : std::pair(ratio, ratio);
+  return largest;
+}
+
+void set_members(std::vector<LocatedDifference> members, DifferenceGroup& group) {
+  std::ranges::stable_sort(members, std::ranges::greater(),
+                           [](const LocatedDifference& each) { return each.second.size(); });
+  group.where = members.front().first;
+  group.difference = members.front().second;
+  group.count = static_cast<int>(members.size());
+  for (const auto& [where, difference] : members) {
+    if (!difference.ratio) continue;
+    const double ratio = *difference.ratio;
+    auto& ratios = group.ratios;
+    ratios = ratios ? std::pair(std::min(ratios->first, ratio), std::max(ratios->second, ratio))
+                    : std::pair(ratio, ratio);
+  }
+  group.members = std::move(members);
 }
 
 }  // namespace
@@ -114,6 +131,13 @@ std::string_view name_of(WallClockCause cause) {
   return record::name_in(wall_clock_cause_names, cause);
 }
 
+double Difference::size() const {
+  if (ratio) return size_of(*ratio);
+  if (code) return size_of(*code, kind == DifferenceKind::regression);
+  if (const auto error = numbers.find("error"); error != numbers.end()) return error->second;
+  return sides[1] ? sides[1]->number("max_error") : 0;
+}
+
 std::string Difference::about() const {
   return name.empty() ? std::string(name_of(subject))
                       : fmt::format("{} {}", name_of(subject), name);
@@ -121,15 +145,13 @@ std::string Difference::about() const {
 
 std::vector<DifferenceGroup> grouped(const std::vector<LocatedDifference>& differences) {
   using Key = std::tuple<DifferenceKind, std::string, std::string>;  // kind, measurement, faults
-  std::map<Key, DifferenceGroup> groups;
+  std::map<Key, std::vector<LocatedDifference>> groups;
   for (const LocatedDifference& each : differences) {
     const Difference& difference = each.second;
-    const Key key{difference.kind, difference.about(), difference.injected};
-    const DifferenceGroup first{.difference = difference, .where = each.first, .ratios = {}};
-    add(each, groups.try_emplace(key, first).first->second);
+    groups[{difference.kind, difference.about(), difference.injected}].push_back(each);
   }
   std::vector<DifferenceGroup> sorted;
-  for (auto& [key, group] : groups) sorted.push_back(std::move(group));
+  for (auto& [key, members] : groups) set_members(std::move(members), sorted.emplace_back());
   return sorted;
 }
 

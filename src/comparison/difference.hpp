@@ -92,20 +92,26 @@ struct Difference {
   std::optional<judge::CodeTotal> total = {};
   std::string injected = {};  // faults injected into a side with --inject
 
+  // Returns a number by which the differences of one group are sorted: |ln ratio|, |ln| of the
+  // largest change of a code statistic (for the worse, if this is a regression), or the largest
+  // error of an image. Returns 0 if the difference has no size.
+  [[nodiscard]] double size() const;
   [[nodiscard]] std::string about() const;  // the measurement, such as "image" or "counter samples"
-};
-
-// Differences of the same kind in the same measurement, which are reported together.
-struct DifferenceGroup {
-  Difference difference;  // the largest change, or the first difference if none has a ratio
-  std::string where;      // configuration of `difference`; empty: a difference between devices
-  int count = 0;
-  std::optional<std::pair<double, double>> ratios;  // the smallest and the largest `ratio`
 };
 
 // A configuration, and a difference between its two records. The configuration is empty for a
 // difference between the devices.
 using LocatedDifference = std::pair<std::string, Difference>;
+
+// Differences of the same kind in the same measurement, which are reported together.
+struct DifferenceGroup {
+  Difference difference;  // the largest change, or the first difference if none has a size
+  std::string where;      // configuration of `difference`; empty: a difference between devices
+  int count = 0;
+  std::optional<std::pair<double, double>> ratios;  // the smallest and the largest `ratio`
+  std::vector<LocatedDifference> members = {};      // all differences, the largest first
+};
+
 // Groups the differences. The groups are sorted by kind (worst first) and then by measurement.
 // Injected faults form separate groups, so that nobody mistakes them for driver faults.
 [[nodiscard]] std::vector<DifferenceGroup> grouped(

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "comparison/comparison.hpp"
 
@@ -47,6 +48,26 @@ std::vector<DifferenceGroup> ComparisonResult::groups() const {
     for (const Difference& each : compared.differences) all.emplace_back(compared.key, each);
   }
   return grouped(all);
+}
+
+std::optional<OverallTime> ComparisonResult::overall_time() const {
+  OverallTime overall;
+  for (const ComparedConfiguration& compared : configurations) {
+    if (!compared.has_time()) continue;
+    ++(compared.verdict == PairVerdict::undecided ? overall.undecided : overall.decided);
+    const Shift& shift = compared.shift;
+    if (!std::isfinite(shift.interval.low) || !std::isfinite(shift.interval.high)) continue;
+    ++overall.averaged;
+    overall.shift.estimate += shift.estimate;
+    overall.shift.interval.low += shift.interval.low;
+    overall.shift.interval.high += shift.interval.high;
+  }
+  if (overall.averaged < 2) return std::nullopt;
+  for (double* sum :
+       {&overall.shift.estimate, &overall.shift.interval.low, &overall.shift.interval.high}) {
+    *sum /= overall.averaged;
+  }
+  return overall;
 }
 
 }  // namespace triptych::comparison

@@ -22,11 +22,13 @@ enum class TimeCause : std::uint8_t {
   side_ended,             // a side did not measure the configuration [side, outcome, reason]
   only_one_side,          // only one side has the configuration [side]
   wrong_image,            // the image of a side is wrong, so its time has no meaning [side]
-  no_fresh_process_runs,  // no new worker processes could be measured [suspected]
+  no_fresh_process_runs,  // no new worker processes could be measured
+                          // [suspected "half_width" "most"]
   not_confirmed,          // new worker processes did not confirm that b is slower or faster
-                          // [suspected "ratio" "process_runs"]
-  undecided,              // all blocks were measured without a decision ["blocks" "half_width"]
-  budget_ended            // the time budget ended before a decision ["blocks" "half_width"]
+                          // [suspected "ratio" "process_runs" "half_width" "most"]
+  undecided,              // all blocks were measured without a decision
+                          // ["blocks" "half_width" "most"]
+  budget_ended            // the time budget ended before a decision ["blocks" "half_width" "most"]
 };
 [[nodiscard]] std::string_view name_of(TimeCause cause);
 
@@ -36,6 +38,8 @@ struct TimeReason {
   record::Outcome outcome = record::Outcome::measured;
   record::Reason reason = {};
   PairVerdict suspected = PairVerdict::undecided;
+  // "half_width" is half the width of the confidence interval of the shift, and "most" is the
+  // largest distance from 0 of any shift in that interval.
   std::map<std::string, double> numbers = {};
 
   [[nodiscard]] bool empty() const noexcept { return cause == TimeCause::none; }

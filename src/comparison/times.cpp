@@ -6,8 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "estimation/statistics.hpp"
 #include "measure/protocol/injected_fault.hpp"
 #include "measure/system/stopwatch.hpp"
+#include "measure/system/system_facts.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -20,7 +22,8 @@ using measure::SideClock;
 struct Entry {
   ComparedConfiguration& compared;
   std::array<std::vector<std::string>, 2> faults;
-  std::vector<measure::Block> blocks;
+  std::vector<measure::Block> blocks;             // of the first process run
+  std::vector<measure::Block> fresh_blocks = {};  // of all fresh process runs
 };
 
 class Timer {
@@ -49,6 +52,12 @@ class Timer {
     continue_with_widest();
     confirm_suspects();
     for (Entry& entry : entries_) conclude(entry);
+  }
+
+  // Returns ComparisonResult::other_load.
+  [[nodiscard]] std::optional<double> mean_load() const {
+    if (loads_.empty()) return std::nullopt;
+    return estimation::mean(loads_);
   }
 
  private:
@@ -116,8 +125,15 @@ class Timer {
     load(entry);
     const bool first = entry.blocks.empty();
     while (static_cast<int>(entry.blocks.size()) < blocks && (first || !must_confirm())) {
-      entry.blocks.push_back(interleaved_.block());
+      entry.blocks.push_back(measure_block());
     }
+  }
+
+  measure::Block measure_block() {
+    measure::Block block = interleaved_.block();
+    // Both workers are idle now, so all threads that are ready to run belong to other programs.
+    if (const auto load = measure::other_runnable_threads_per_core()) loads_.push_back(*load);
+    return block;
   }
 
   void judge_blocks(Entry& entry) {
@@ -130,17 +146,21 @@ class Timer {
     compared.verdict = look.verdict;
     compared.shift = look.shift;
     compared.blocks = static_cast<int>(entry.blocks.size());
-    compared.times = {time_of(entry, &measure::Block::a), time_of(entry, &measure::Block::b)};
+    compared.times = times_of(entry.blocks, compared.clock);
   }
 
-  static SideTime time_of(const Entry& entry, measure::SideTimes measure::Block::*side) {
-    std::vector<double> times;
-    for (const measure::Block& block : entry.blocks) {
-      const measure::SideTimes& of = block.*side;
-      const bool device = entry.compared.clock == SideClock::device;
-      for (const double ns : device ? of.device_ns.value() : of.wall_ns) times.push_back(ns);
-    }
-    return record::summarise(times).value_or(SideTime{});
+  static std::array<SideTime, 2> times_of(const std::vector<measure::Block>& blocks,
+                                          SideClock clock) {
+    const auto time = [&](measure::SideTimes measure::Block::*side) {
+      std::vector<double> times;
+      for (const measure::Block& block : blocks) {
+        const measure::SideTimes& of = block.*side;
+        const auto& batches = clock == SideClock::device ? of.device_ns.value() : of.wall_ns;
+        times.insert(times.end(), batches.begin(), batches.end());
+      }
+      return record::summarise(times).value_or(SideTime{});
+    };
+    return {time(&measure::Block::a), time(&measure::Block::b)};
   }
 
   [[nodiscard]] bool is_over_budget() const {
@@ -256,8 +276,7 @@ class Timer {
     const auto confirmed =
         confirm_in_looks(fresh, options_.confirmation, options_.design, process_run);
     for (std::size_t i = 0; i < suspected.size(); ++i) {
-      if (!suspected[i]->compared.ended)
-        apply_confirmation(confirmed[i], fresh[i], suspected[i]->compared);
+      if (!suspected[i]->compared.ended) apply_confirmation(confirmed[i], fresh[i], *suspected[i]);
     }
   }
 
@@ -278,18 +297,19 @@ class Timer {
       load(entry);
       std::vector<measure::Block> blocks;
       while (blocks.size() < options_.confirmation.blocks_per_process_run) {
-        blocks.push_back(interleaved_.block());
+        blocks.push_back(measure_block());
       }
       if (entry.compared.clock == SideClock::device && !measure::device_times_plausible(blocks))
         return;
       const auto differences = measure::differences(blocks, entry.compared.clock);
       const double level = options_.design.alpha_of_a_look();
       suspect.process_runs.push_back(estimate_shift(differences, level).estimate);
+      entry.fresh_blocks.insert(entry.fresh_blocks.end(), blocks.begin(), blocks.end());
     });
   }
 
-  static void apply_confirmation(const Confirmation& confirmed, const Suspect& suspect,
-                                 ComparedConfiguration& compared) {
+  void apply_confirmation(const Confirmation& confirmed, const Suspect& suspect, Entry& entry) {
+    ComparedConfiguration& compared = entry.compared;
     const auto suspected = std::exchange(compared.verdict, confirmed.verdict);
     if (suspect.process_runs.size() < min_process_runs) {
       compared.reason = {.cause = TimeCause::no_fresh_process_runs, .suspected = suspected};
@@ -301,8 +321,12 @@ class Timer {
                          .suspected = suspected,
                          .numbers = {{"ratio", std::exp(compared.shift.estimate)},
                                      {"process_runs", static_cast<double>(compared.process_runs)}}};
+      compared.out_of_budget = confirmed.verdict == PairVerdict::undecided && options_.budget &&
+                               suspect.process_runs.size() < options_.confirmation.looks.back();
     }
+    // The times, the shift and its interval must come from the same measurements.
     compared.shift = confirmed.shift;
+    compared.times = times_of(entry.fresh_blocks, compared.clock);
   }
 
   void conclude(Entry& entry) {
@@ -311,11 +335,15 @@ class Timer {
     const bool unexplained = !compared.ended && compared.reason.empty();
     if (unexplained && compared.verdict == PairVerdict::undecided) {
       const bool all = options_.design.next_look(compared.blocks) == 0;
+      compared.out_of_budget = !all;
       compared.reason = {.cause = all ? TimeCause::undecided : TimeCause::budget_ended,
                          .numbers = {{"blocks", static_cast<double>(compared.blocks)}}};
-      const double half_width = compared.shift.interval.half_width();
-      if (std::isfinite(half_width)) compared.reason.numbers["half_width"] = half_width;
     }
+    if (compared.reason.empty() || !compared.has_time()) return;
+    const Interval& interval = compared.shift.interval;
+    if (compared.verdict != PairVerdict::undecided || !std::isfinite(interval.half_width())) return;
+    compared.reason.numbers["half_width"] = interval.half_width();
+    compared.reason.numbers["most"] = std::max(std::abs(interval.low), std::abs(interval.high));
   }
 
   void report_progress(ComparisonProgress progress, const Entry& entry, int done, int total,
@@ -335,14 +363,18 @@ class Timer {
   measure::Stopwatch timing_stopwatch_;
   measure::Interleaved interleaved_;
   std::vector<Entry> entries_;
+  std::vector<double> loads_;      // one sample of the machine's load after each block
   const Entry* loaded_ = nullptr;  // the configuration that both workers have loaded
 };
 
 }  // namespace
 
-void measure_times(const ComparisonOptions& options, const measure::Stopwatch& since,
-                   const OnProgress& on_progress, std::vector<ComparedConfiguration>& compared) {
-  Timer(options, since, on_progress, compared).run();
+std::optional<double> measure_times(const ComparisonOptions& options,
+                                    const measure::Stopwatch& since, const OnProgress& on_progress,
+                                    std::vector<ComparedConfiguration>& compared) {
+  Timer timer(options, since, on_progress, compared);
+  timer.run();
+  return timer.mean_load();
 }
 
 }  // namespace triptych::comparison

@@ -18,4 +18,10 @@ std::string command_for(const comparison::ComparedConfiguration& compared,
   return text;
 }
 
+std::string exact_command(const ComparisonCommand& command) {
+  if (command.exact_plan.empty()) return {};
+  return fmt::format("triptych compare {} {}", core::shell_quoted(command.exact_plan),
+                     command.sides);
+}
+
 }  // namespace triptych::report

@@ -5,8 +5,10 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -56,6 +58,16 @@ std::string_view compiler() {
 }
 
 }  // namespace
+
+std::optional<double> other_runnable_threads_per_core() {
+  // The fourth word of the file is "RUNNABLE/ALL", the numbers of threads on this machine.
+  std::ifstream file("/proc/loadavg");
+  std::string average;
+  int runnable = 0;
+  const long cores = ::sysconf(_SC_NPROCESSORS_ONLN);
+  if (!(file >> average >> average >> average >> runnable) || cores <= 0) return std::nullopt;
+  return static_cast<double>(std::max(0, runnable - 1)) / static_cast<double>(cores);
+}
 
 std::string host_name() {
   utsname names{};

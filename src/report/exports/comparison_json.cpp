@@ -39,6 +39,23 @@ Json to_json(const judge::CodeTotal& total) {
   return json;
 }
 
+// Sets `ratio`, `ratio_low` and `ratio_high` to the exponentials of finite values.
+void set_ratios(const comparison::Shift& shift, Json& json) {
+  const auto set = [&json](const char* name, double ln) {
+    if (std::isfinite(ln)) json[name] = std::exp(ln);
+  };
+  set("ratio", shift.estimate);
+  set("ratio_low", shift.interval.low);
+  set("ratio_high", shift.interval.high);
+}
+
+Json to_json(const comparison::OverallTime& time) {
+  Json json{
+      {"configurations", time.averaged}, {"decided", time.decided}, {"undecided", time.undecided}};
+  set_ratios(time.shift, json);
+  return json;
+}
+
 Json to_json(const ComparedConfiguration& compared, bool timed, const ComparisonCommand& command) {
   Json json{{"configuration", compared.key}};
   if (!compared.reason.empty()) json["reason"] = report::to_json(compared.reason);
@@ -56,9 +73,6 @@ Json to_json(const ComparedConfiguration& compared, bool timed, const Comparison
     if (compared.process_runs > 0) json["process_runs"] = compared.process_runs;
   }
   if (compared.has_time()) {
-    const auto set = [&json](const char* name, double ln) {
-      if (std::isfinite(ln)) json[name] = std::exp(ln);
-    };
     if (compared.times) {
       const auto side = [](const comparison::SideTime& time) {
         return Json{{"median_ns", time.median},
@@ -68,10 +82,8 @@ Json to_json(const ComparedConfiguration& compared, bool timed, const Comparison
       json["a"] = side((*compared.times)[0]);
       json["b"] = side((*compared.times)[1]);
     }
-    set("ratio", compared.shift.estimate);
-    set("ratio_low", compared.shift.interval.low);
-    set("ratio_high", compared.shift.interval.high);
-    if (compared.verdict == comparison::PairVerdict::undecided) {
+    set_ratios(compared.shift, json);
+    if (compared.verdict == comparison::PairVerdict::undecided && compared.out_of_budget) {
       json["settle"] = command_for(compared, command);
     }
   }
@@ -154,6 +166,11 @@ Json to_json(const comparison::ComparisonResult& result, const ComparisonCommand
             {"headline", words::headline(result)},
             {"differences", all_of(result.device)},
             {"configurations", Json::array()}};
+  if (const auto overall = result.overall_time()) json["overall"] = to_json(*overall);
+  if (result.other_load) json["other_load"] = *result.other_load;
+  if (!result.ineffective_variables.empty()) {
+    json["ineffective_variables"] = result.ineffective_variables;
+  }
   for (const ComparedConfiguration& compared : result.configurations) {
     json["configurations"].push_back(to_json(compared, result.timed, command));
   }
@@ -215,11 +232,20 @@ Json to_json(const std::vector<comparison::DeviceHistory>& history) {
 
 Json to_json(const comparison::SideBySide& table) {
   Json json{{"unit", table.unit}, {"sentence", words::sentence(table)}};
-  if (!table.clock.empty()) json["clock"] = table.clock;
+  if (table.is_time()) {
+    json["clock"] = table.clock;
+    json["process_runs"] = table.process_runs;
+  }
   for (const auto& row : table.rows) {
     Json cells = Json::object();
     for (const auto& [device, cell] : row.cells) {
-      cells[device] = {{"value", cell.value}, {"ratio", cell.ratio}, {"work", cell.work}};
+      Json& entry = cells[device];
+      entry = {{"value", cell.value}, {"ratio", cell.ratio}, {"work", cell.work}};
+      if (!table.is_time() || device == row.best) continue;
+      entry["significant"] = cell.is_significant();
+      if (!cell.interval) continue;
+      entry["ratio_low"] = std::exp(cell.interval->low);
+      entry["ratio_high"] = std::exp(cell.interval->high);
     }
     json["rows"].push_back({{"technique", row.technique},
                             {"configurations", row.configurations},

@@ -24,10 +24,12 @@ namespace triptych::report {
 [[nodiscard]] core::Json to_json(const comparison::TimeReason& reason);
 
 // Returns {"plan", "sides", "a", "b" (devices), "seconds", "exit_code", "headline", "differences"
-// (between the devices), "configurations": [{"configuration", "reason", "differences", "work"; if
+// (between the devices), "overall" (mean of the time ratios), "other_load",
+// "ineffective_variables", "configurations": [{"configuration", "reason", "differences", "work"; if
 // times were compared: "verdict", "a", "b" (median and quartiles of the frame times), "ratio",
 // "ratio_low", "ratio_high", "blocks", "process_runs", "frames_per_batch", "clock", "why_wall",
-// "seconds", "settle" (a command, if the verdict is undecided)}]}. Unknown values are left out.
+// "seconds", "settle" (a command, if the budget ended before a verdict)}]}. Unknown values are left
+// out.
 [[nodiscard]] core::Json to_json(const comparison::ComparisonResult& result,
                                  const ComparisonCommand& command);
 

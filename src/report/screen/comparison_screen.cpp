@@ -7,7 +7,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string_view>
+#include <vector>
 
+#include "record/short_name.hpp"
 #include "report/words/comparison.hpp"
 
 namespace triptych::report {
@@ -54,29 +57,100 @@ std::string work_of(const ComparedConfiguration& compared) {
   return text;
 }
 
+constexpr std::size_t widest_line = 200;
+constexpr const char* indented = "\n              ";
+
+// Breaks lines that are wider than widest_line at spaces. Continuation lines are indented.
+std::string broken_lines(std::string_view text) {
+  std::string result;
+  std::size_t column = 0;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(" \n", 1), text.size());
+    const std::string_view word = text.substr(0, end);
+    const auto width = static_cast<std::size_t>(std::ranges::count_if(
+        word, [](char each) { return (static_cast<unsigned char>(each) & 0xC0U) != 0x80U; }));
+    if (word.front() == '\n') {
+      column = width - 1;
+      result += word;
+    } else if (word.front() == ' ' && column + width > widest_line) {
+      result += indented;
+      result += word.substr(1);
+      column = std::string_view(indented).size() - 1 + width - 1;
+    } else {
+      column += width;
+      result += word;
+    }
+    text.remove_prefix(end);
+  }
+  return result;
+}
+
+bool is_undecided(const ComparedConfiguration& compared) {
+  return compared.has_time() && compared.verdict == comparison::PairVerdict::undecided;
+}
+
 std::string line_of(const ComparedConfiguration& compared, const ComparisonCommand& command) {
   std::string line = fmt::format("{:<12}", compared.verdict_name());
   if (compared.has_time()) {
-    line += milliseconds_of(compared) +
-            fmt::format("{}  {} measurement blocks", ratio_of(compared.shift), compared.blocks);
-    if (compared.process_runs > 0) {
-      line += fmt::format(" and {} repetitions in new processes", compared.process_runs);
-    }
+    line += milliseconds_of(compared) + ratio_of(compared.shift);
+    line += compared.process_runs > 0
+                ? fmt::format("  {} repetitions in new processes", compared.process_runs)
+                : fmt::format("  {} measurement blocks", compared.blocks);
     line += fmt::format(", {} clock", name_of(compared.clock));
   }
-  line += fmt::format("  {:.1f} s  {}", compared.seconds, compared.key);
-  constexpr const char* indented = "\n              ";
+  line += fmt::format("  {:.1f} s  {}", compared.seconds, record::short_name(compared.key));
   if (!compared.reason.empty()) line += indented + words::text_of(compared.reason);
-  if (compared.has_time() && compared.verdict == comparison::PairVerdict::undecided) {
-    line += "; to reach a verdict, run: " + command_for(compared, command);
-  }
   if (const std::string work = work_of(compared); !work.empty()) line += indented + work;
-  return line + "\n";
+  line = broken_lines(line + "\n");
+  if (is_undecided(compared) && compared.out_of_budget) {
+    line += fmt::format("{:<14}to reach a verdict, run: {}\n", "", command_for(compared, command));
+  }
+  return line;
 }
 
-std::string differences_of(const ComparisonResult& result) {
+// Returns one line for each configuration. Unless everything is to be listed, only the first few
+// undecided configurations are.
+std::string times_of(const ComparisonResult& result, const ComparisonCommand& command) {
+  constexpr int most_undecided = 3;
+  std::string text =
+      "time of b divided by time of a, with the confidence interval in brackets; before it, the "
+      "median times of a and b with their quartiles, from the same measurements:\n";
+  int undecided = 0;
+  for (const ComparedConfiguration& compared : result.configurations) {
+    const bool folded = is_undecided(compared) && ++undecided > most_undecided && !command.verbose;
+    if (!folded) text += line_of(compared, command);
+  }
+  if (undecided > most_undecided && !command.verbose) {
+    text += fmt::format("{:<12}{} more; --verbose lists them, and --json contains all of them\n",
+                        name_of(comparison::PairVerdict::undecided), undecided - most_undecided);
+  }
+  return text;
+}
+
+// Returns the lines about all configurations together, and the advice for undecided ones.
+std::string conclusion_of(const ComparisonResult& result, const ComparisonCommand& command) {
+  std::string text;
+  if (const auto overall = result.overall_time()) text += words::overall(*overall) + "\n";
+  const bool timed = std::ranges::any_of(result.configurations, &ComparedConfiguration::has_time);
+  if (timed && result.other_load) text += words::load(*result.other_load) + "\n";
+  const bool exhausted =
+      std::ranges::any_of(result.configurations, [](const ComparedConfiguration& compared) {
+        return is_undecided(compared) && !compared.out_of_budget;
+      });
+  if (exhausted) text += words::when_undecided(exact_command(command)) + "\n";
+  return text;
+}
+
+std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups, bool verbose) {
+  std::string text = words::lines_of(groups, verbose);
+  const bool folded = std::ranges::any_of(groups, [](const auto& each) { return each.count > 1; });
+  if (folded && !verbose) text += "--verbose lists every configuration with a difference\n";
+  return text;
+}
+
+std::string differences_of(const ComparisonResult& result, bool verbose) {
   const auto groups = result.groups();
-  if (!groups.empty()) return words::lines_of(groups);
+  if (!groups.empty()) return lines_of(groups, verbose);
   const auto& all = result.configurations;
   if (std::ranges::all_of(
           all, [](const ComparedConfiguration& each) { return each.ended.has_value(); })) {
@@ -86,6 +160,19 @@ std::string differences_of(const ComparisonResult& result) {
   const bool timed =
       std::ranges::any_of(all, [](const ComparedConfiguration& each) { return each.blocks > 0; });
   return timed ? "no differences except in time\n" : "no differences\n";
+}
+
+// Returns the calibration results of the clocks that are not trusted.
+std::string calibrations_of(const ComparisonResult& result) {
+  std::string text;
+  for (const measure::Side side : {measure::Side::a, measure::Side::b}) {
+    for (const record::ClockTrust& clock : result.clocks.at(side == measure::Side::a ? 0 : 1)) {
+      if (clock.trusted) continue;
+      text += fmt::format("{:<14}side {}, {}: {}\n", "", measure::name_of(side), clock.work,
+                          clock.verdict);
+    }
+  }
+  return text;
 }
 
 std::string clocks_of(const ComparisonResult& result) {
@@ -98,6 +185,10 @@ std::string clocks_of(const ComparisonResult& result) {
     text += fmt::format("the wall clock was used in {} configurations, because {}\n", count,
                         words::text_of(cause));
   }
+  const auto uncalibrated = [](const auto& each) {
+    return each.first != comparison::WallClockCause::implausible;
+  };
+  if (std::ranges::any_of(causes, uncalibrated)) text += calibrations_of(result);
   return text;
 }
 
@@ -111,14 +202,12 @@ std::string no_difference(const DeviceChange& change) {
          "\n";
 }
 
-std::string lines_of(const DeviceChange& change) {
+std::string lines_of(const DeviceChange& change, bool verbose) {
   const auto groups = groups_of(change);
-  const auto version = [](const record::Device& device) {
-    return fmt::format("{}, API {}", device.driver_version, device.api_version);
-  };
   return fmt::format("{}, {} configurations\na: {}\nb: {}\n{}\n", change.a.id,
-                     change.configurations.size(), version(change.a), version(change.b),
-                     groups.empty() ? no_difference(change) : words::lines_of(groups));
+                     change.configurations.size(), words::version_of(change.a),
+                     words::version_of(change.b),
+                     groups.empty() ? no_difference(change) : lines_of(groups, verbose));
 }
 
 std::string number(const std::optional<double>& value) {
@@ -134,20 +223,19 @@ std::string injected_text(const HistoryPoint& point) {
 }  // namespace
 
 std::string screen_of(const ComparisonResult& result, const ComparisonCommand& command) {
-  std::string text =
-      command.plan + "\n" + words::sides(result.a, result.b) + differences_of(result);
+  const std::string warning = words::same_driver(result);
+  std::string text = command.plan + "\n" + words::sides(result, command.base) + warning +
+                     broken_lines(differences_of(result, command.verbose));
   if (result.timed) {
-    text += "time of b divided by time of a, with the confidence interval in brackets:\n";
-    for (const ComparedConfiguration& compared : result.configurations)
-      text += line_of(compared, command);
-    text += clocks_of(result);
+    text += times_of(result, command) + broken_lines(clocks_of(result)) +
+            conclusion_of(result, command);
   }
   return text + words::headline(result) + "\n";
 }
 
-std::string screen_of(const comparison::StoreDiff& diff) {
+std::string screen_of(const comparison::StoreDiff& diff, bool verbose) {
   std::string text;
-  for (const DeviceChange& change : diff.devices) text += lines_of(change);
+  for (const DeviceChange& change : diff.devices) text += lines_of(change, verbose);
   for (const comparison::OneSidedEntry& each : diff.one_sided) {
     text += fmt::format("{:<12}  {}\n", comparison::name_of(DifferenceKind::unjudged),
                         words::text_of(each));

@@ -15,10 +15,17 @@ namespace {
 
 using comparison::SideBySide;
 
-// Returns the cost relative to the best device, such as "1.32". If the amount of work differs by 1
-// % or more, returns "1.32 (samples ×1.10)".
-std::string text_of(const SideBySide::Cell& cell) {
+// Returns the cost relative to the best device, such as "1.32". For times, adds the larger distance
+// to an end of the confidence interval, such as "1.32 ±4%" or "~1.07 ±12%", where '~' marks a ratio
+// that is not significant. If the amount of work differs by 1 % or more, adds it, such as "1.32
+// (samples ×1.10)".
+std::string text_of(const SideBySide::Cell& cell, bool time, bool best) {
   std::string text = fmt::format("{:.2f}", cell.ratio);
+  if (time && !best) {
+    const std::string range =
+        cell.interval ? fmt::format("{:.0f}%", 100 * std::expm1(cell.interval->half_width())) : "?";
+    text = fmt::format("{}{} ±{}", cell.is_significant() ? "" : "~", text, range);
+  }
   for (const auto& [name, work] : cell.work) {
     if (std::abs(work - 1) >= 0.01) text += fmt::format(" ({} ×{:.2f})", name, work);
   }
@@ -51,11 +58,18 @@ std::string cheapest_technique(const SideBySide& table, const std::string& devic
                      table.unit == "ns" ? "ms" : "M");
 }
 
+// Returns the number of characters of UTF-8 text.
+std::size_t cell_width(const std::string& text) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char each) { return (static_cast<unsigned char>(each) & 0xC0U) != 0x80U; }));
+}
+
 // Formats a table with left-aligned columns.
 std::string aligned(const std::vector<std::vector<std::string>>& lines) {
   std::vector<std::size_t> widths(lines.front().size());
   for (const auto& line : lines) {
-    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+    for (std::size_t i = 0; i < widths.size(); ++i)
+      widths[i] = std::max(widths[i], cell_width(line[i]));
   }
   std::string text;
   for (const auto& line : lines) {
@@ -83,15 +97,20 @@ std::string screen_of(const SideBySide& table) {
     std::vector<std::string>& line = lines.emplace_back(1, row.technique);
     for (const std::string& device : table.devices) {
       const auto cell = row.cells.find(device);
-      line.push_back(cell == row.cells.end() ? "–" : text_of(cell->second));
+      line.push_back(cell == row.cells.end()
+                         ? "–"
+                         : text_of(cell->second, table.is_time(), device == row.best));
     }
     line.push_back(fmt::to_string(row.configurations));
   }
   lines.push_back(std::move(least));
-  return aligned(lines) +
-         fmt::format("\n{} per frame, relative to the best device. {}.\n",
-                     table.clock.empty() ? "Instructions" : "Time (" + table.clock + " clock)",
-                     words::sentence(table));
+  std::string text =
+      aligned(lines) +
+      fmt::format("\n{} per frame, relative to the best device. {}.\n",
+                  table.is_time() ? "Time (" + table.clock + " clock)" : "Instructions",
+                  words::sentence(table));
+  if (table.is_time()) text += words::uncertainty(table) + "\n";
+  return text;
 }
 
 }  // namespace triptych::report

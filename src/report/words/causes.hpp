@@ -14,7 +14,7 @@ namespace triptych::report::words {
 [[nodiscard]] std::string counted(double n, std::string_view one, std::string_view many);
 // Formats the number of configurations, with some of their names: "12 configurations (A; B; C; …)".
 [[nodiscard]] std::string examples(const std::vector<std::string>& configurations);
-// Formats a ratio as a change: "+1.4 %".
+// Formats a ratio as a change: "+1.4 %". A ratio above 2 is a factor instead: "21 times".
 [[nodiscard]] std::string percent(double ratio);
 // Names what a result was compared with: "the reference image".
 [[nodiscard]] std::string_view text_of(judge::Against against);

@@ -142,61 +142,6 @@ std::string range_of(const std::pair<double, double>& ratios) {
   return least == largest ? least : least + " to " + largest;
 }
 
-// A part of a device key (record::Device::key()).
-struct KeyPart {
-  std::string text;
-  std::string variable = {};  // the name, if this part is an environment variable
-  bool processor = false;     // whether this part lists the CPU features
-  bool operator==(const KeyPart&) const = default;
-};
-
-std::string one_line(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  return text;
-}
-
-std::vector<KeyPart> parts_of(const record::Device& device) {
-  std::vector<KeyPart> parts{{device.id},
-                             {"driver " + one_line(device.driver_version)},
-                             {"API " + one_line(device.api_version)}};
-  if (!device.cpu_features.empty()) {
-    parts.push_back({.text = "CPU " + device.cpu_features, .processor = true});
-  } else if (!device.name.empty()) {
-    parts.push_back({"GPU " + one_line(device.name)});
-  }
-  for (const auto& [variable, value] : device.environment) {
-    parts.push_back(
-        {.text = fmt::format("{}={}", variable, one_line(value)), .variable = variable});
-  }
-  return parts;
-}
-
-bool has(const std::vector<KeyPart>& parts, const KeyPart& part) {
-  return std::ranges::find(parts, part) != parts.end();
-}
-
-// Returns the parts of a device key that are in `b` but not in `a`, and the environment variables
-// that only `a` sets.
-std::vector<std::string> differing(const std::vector<KeyPart>& a, const std::vector<KeyPart>& b) {
-  std::vector<std::string> parts;
-  for (const KeyPart& part : b) {
-    if (!has(a, part)) parts.push_back(part.text);
-  }
-  for (const KeyPart& part : a) {
-    if (part.variable.empty()) continue;
-    if (std::ranges::find(b, part.variable, &KeyPart::variable) == b.end()) {
-      parts.push_back("without " + part.text);
-    }
-  }
-  return parts;
-}
-
-std::string joined(const std::vector<KeyPart>& parts) {
-  std::vector<std::string> texts;
-  for (const KeyPart& part : parts) texts.push_back(part.text);
-  return fmt::format("{}", fmt::join(texts, "; "));
-}
-
 // Returns the number of configurations with each verdict: "18 slower, 3 same".
 std::string verdicts(const comparison::ComparisonResult& result) {
   std::map<std::string_view, int> numbers;
@@ -223,16 +168,24 @@ std::string text_of(const comparison::DifferenceGroup& group) {
   std::string text = text_of(group.difference);
   if (!group.where.empty()) text = fmt::format("{}: {}", group.where, text);
   if (group.count <= 1) return text;
-  return group.ratios ? fmt::format("{} in {} configurations; largest change in {}",
-                                    range_of(*group.ratios), group.count, text)
-                      : fmt::format("in {} configurations, for example in {}", group.count, text);
+  if (group.ratios) {
+    return fmt::format("{} in {} configurations; largest change in {}", range_of(*group.ratios),
+                       group.count, text);
+  }
+  const bool sized = group.difference.size() > 0;
+  return fmt::format("in {} configurations{} in {}", group.count,
+                     sized ? "; largest change" : ", for example", text);
 }
 
-std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups) {
+std::string lines_of(const std::vector<comparison::DifferenceGroup>& groups, bool all) {
   std::string text;
   for (const comparison::DifferenceGroup& group : groups) {
     text += fmt::format("{:<12}  {}: {}\n", comparison::name_of(group.difference.kind),
                         group.difference.about(), text_of(group));
+    if (!all || group.count <= 1) continue;
+    for (const auto& [where, difference] : group.members) {
+      text += fmt::format("{:<14}{}: {}\n", "", where, text_of(difference));
+    }
   }
   return text;
 }
@@ -244,10 +197,10 @@ std::string text_of(const TimeReason& reason) {
     const auto found = reason.numbers.find(name);
     return found == reason.numbers.end() ? 0 : found->second;
   };
-  const auto interval = [&] {
-    if (!reason.numbers.contains("half_width")) return std::string();
-    return fmt::format("; the confidence interval is ± {:.2f} %",
-                       100 * std::expm1(number("half_width")));
+  const auto limit = [&] {
+    if (!reason.numbers.contains("most")) return std::string();
+    return fmt::format("; if there is a difference, it is smaller than {:.3g} %",
+                       100 * std::expm1(number("most")));
   };
   switch (reason.cause) {
     case TimeCause::none:
@@ -266,14 +219,14 @@ std::string text_of(const TimeReason& reason) {
     case TimeCause::not_confirmed:
       return fmt::format(
           "{} ({}) in the first process, but {:.0f} repetitions in new processes did not confirm "
-          "this",
-          suspected, percent(number("ratio")), number("process_runs"));
+          "this{}",
+          suspected, percent(number("ratio")), number("process_runs"), limit());
     case TimeCause::undecided:
-      return fmt::format("undecided after {:.0f} measurement blocks{}", number("blocks"),
-                         interval());
+      return fmt::format("undecided after {:.0f} measurement blocks, the maximum{}",
+                         number("blocks"), limit());
     case TimeCause::budget_ended:
       return fmt::format("the time budget was used up after {:.0f} measurement blocks{}",
-                         number("blocks"), interval());
+                         number("blocks"), limit());
   }
   return {};
 }
@@ -321,61 +274,19 @@ std::string nothing_compared(const TimeReason& first) {
                      why.empty() ? "" : "; ", why);
 }
 
-std::string sides(const record::Device& a, const record::Device& b) {
-  std::vector<KeyPart> parts_a = parts_of(a);
-  std::vector<KeyPart> parts_b = parts_of(b);
-  // The list of CPU features is long, so it is left out if it is equal on both sides.
-  const auto is_shared_processor = [](const std::vector<KeyPart>& other) {
-    return [&other](const KeyPart& part) { return part.processor && has(other, part); };
-  };
-  const std::vector<KeyPart> all_b = parts_b;
-  std::erase_if(parts_b, is_shared_processor(parts_a));
-  std::erase_if(parts_a, is_shared_processor(all_b));
-  std::string text_b = joined(parts_b);
-  if (a.id == b.id) {
-    const auto parts = differing(parts_a, parts_b);
-    text_b = parts.empty() ? "the same" : fmt::format("the same, but {}", fmt::join(parts, "; "));
-  }
-  return fmt::format("a: {}\nb: {}\n", joined(parts_a), text_b);
-}
-
 std::string headline(const comparison::ComparisonResult& result) {
   std::map<DifferenceKind, int> kinds;
   for (const auto& compared : result.configurations) {
     for (const Difference& difference : compared.differences) ++kinds[difference.kind];
   }
   const std::string times = result.timed ? verdicts(result) : "";
-  return fmt::format("{}: {}{}{}, {} fixed, {} changed; {:.0f} s", verdict_word(result.exit_code()),
-                     times, times.empty() ? "" : "; ",
-                     counted(kinds[DifferenceKind::regression], "deterministic regression",
-                             "deterministic regressions"),
-                     kinds[DifferenceKind::fixed], kinds[DifferenceKind::changed], result.seconds);
-}
-
-std::string sentence(const comparison::SideBySide& table) {
-  std::map<std::string, std::size_t> wins;
-  for (const comparison::SideBySide::Row& row : table.rows) ++wins[row.best];
-  const auto most =
-      std::ranges::max_element(wins, {}, [](const auto& each) { return each.second; });
-  const auto its = std::ranges::count_if(table.rows, [&](const comparison::SideBySide::Row& row) {
-    return row.cells.contains(most->first);
-  });
-  std::string text = fmt::format("{} has the lowest cost in {} of the {} techniques measured on it",
-                                 most->first, most->second, its);
-  for (const std::string& device : table.devices) {
-    std::vector<double> ratios;
-    for (const comparison::SideBySide::Row& row : table.rows) {
-      if (device == most->first || !row.cells.contains(device)) continue;
-      if (!row.cells.contains(most->first)) continue;
-      ratios.push_back(row.cells.at(device).value / row.cells.at(most->first).value);
-    }
-    if (ratios.empty()) continue;
-    text += fmt::format(
-        "; the cost on {} is {:.2f} to {:.2f} times as high in the techniques measured on both "
-        "devices",
-        device, std::ranges::min(ratios), std::ranges::max(ratios));
-  }
-  return text;
+  return fmt::format(
+      "{}: {}{}{}, {} fixed, {} changed; {:.0f} s{}", verdict_word(result.exit_code()), times,
+      times.empty() ? "" : "; ",
+      counted(kinds[DifferenceKind::regression], "deterministic regression",
+              "deterministic regressions"),
+      kinds[DifferenceKind::fixed], kinds[DifferenceKind::changed], result.seconds,
+      result.ineffective_variables.empty() ? "" : "; ! both sides loaded the same driver version");
 }
 
 std::string fails_differently(const judge::Observation& first,

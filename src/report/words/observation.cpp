@@ -328,6 +328,7 @@ std::string examples(const std::vector<std::string>& configurations) {
 }
 
 std::string percent(double ratio) {
+  if (ratio > 2) return fmt::format("{:.3g} times", ratio);
   return fmt::format("{:+.3g} %", 100 * (ratio - 1));
 }
 

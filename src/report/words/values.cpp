@@ -189,8 +189,8 @@ std::string order(const Observation& what) {
 }
 
 std::string residual_moved(const Observation& what) {
-  std::string text =
-      fmt::format("{} instructions since the baseline was accepted", percent(what.number("ratio")));
+  std::string text = fmt::format("instructions since the baseline was accepted: {}",
+                                 percent(what.number("ratio")));
   const double least = what.number("least_ratio");
   const double most = what.number("largest_ratio");
   if (std::abs(std::log(most / least)) > 1e-5) {

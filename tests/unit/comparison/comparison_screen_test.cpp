@@ -1,8 +1,11 @@
 #include "report/screen/comparison_screen.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 #include "report/exports/comparison_json.hpp"
 
@@ -41,25 +44,129 @@ std::string sides_of(const record::Device& a, const record::Device& b) {
   return screen_of(result, {.plan = "volume/quick", .sides = "", .varied = {}});
 }
 
-TEST(ComparisonScreen, PrintsCommonInformationOnce) {
+TEST(ComparisonScreen, NamesDriverAndVersionOfBothSides) {
   const record::Device plain = device("vulkan:x");
   EXPECT_THAT(sides_of(plain, plain),
-              HasSubstr("a: vulkan:x; driver Mesa 1; API 1.3\nb: the same\n"));
-  EXPECT_THAT(sides_of(plain, device("gl:y")), HasSubstr("b: gl:y; driver Mesa 1; API 1.3\n"));
+              HasSubstr("\na: vulkan:x; driver Mesa 1; API 1.3\nb: vulkan:x; driver Mesa 1; API "
+                        "1.3\nno differences"));
   record::Device other = plain;
+  other.driver = "lavapipe";
   other.cpu_features = "avx";
   EXPECT_THAT(sides_of(plain, other),
-              HasSubstr("API 1.3; CPU avx avx2\nb: the same, but CPU avx\n"));
+              AllOf(HasSubstr("API 1.3\n              CPU avx avx2\nb: vulkan:x; driver lavapipe, "
+                              "Mesa 1; API 1.3\n              CPU avx\n")));
 }
 
-TEST(ComparisonScreen, ShowsTheVariablesOfASide) {
-  const record::Device plain = device("vulkan:x");
-  const record::Device one = device("vulkan:x", {{"WIDTH", "128"}});
-  EXPECT_THAT(sides_of(plain, one), HasSubstr("b: the same, but WIDTH=128\n"));
-  EXPECT_THAT(sides_of(one, plain),
-              HasSubstr("API 1.3; WIDTH=128\nb: the same, but without WIDTH=128\n"));
-  EXPECT_THAT(sides_of(one, device("vulkan:x", {{"WIDTH", "256"}})),
-              HasSubstr("WIDTH=128\nb: the same, but WIDTH=256\n"));
+TEST(ComparisonScreen, ShowsTheVariablesAndProgramsOfBothSides) {
+  ComparisonResult result;
+  result.a = device("vulkan:x", {{"WIDTH", "128"}});
+  result.b = device("vulkan:x");
+  result.environment = {{{"WIDTH=128", "LD_LIBRARY_PATH=/next"}, {}}};
+  result.programs = {"/old/triptych", "/new/triptych"};
+  EXPECT_THAT(screen_of(result, {.plan = "volume/quick", .sides = "", .varied = {}, .base = true}),
+              HasSubstr("a (--base): vulkan:x; driver Mesa 1; API 1.3\n"
+                        "              program /old/triptych\n"
+                        "              WIDTH=128\n"
+                        "              LD_LIBRARY_PATH=/next\n"
+                        "b (tested): vulkan:x; driver Mesa 1; API 1.3\n"
+                        "              program /new/triptych\n"));
+}
+
+// Returns a configuration whose time was measured in a number of blocks.
+ComparedConfiguration timed(const std::string& key, comparison::PairVerdict verdict,
+                            comparison::Shift shift) {
+  ComparedConfiguration compared;
+  compared.key = key;
+  compared.verdict = verdict;
+  compared.shift = shift;
+  compared.blocks = 384;
+  if (verdict == comparison::PairVerdict::undecided) {
+    compared.reason = {.cause = TimeCause::undecided, .numbers = {{"blocks", 384}}};
+  }
+  return compared;
+}
+
+// The geometric mean of the ratios and of the ends of their intervals.
+TEST(ComparisonScreen, SummarizesTheTimesOfAllConfigurations) {
+  using enum comparison::PairVerdict;
+  ComparisonResult result;
+  result.timed = true;
+  result.configurations = {timed("step=1", same, {0.01, {-0.01, 0.03}}),
+                           timed("step=2", undecided, {0.03, {-0.05, 0.11}})};
+  ASSERT_TRUE(result.overall_time());
+  EXPECT_NEAR(result.overall_time()->shift.estimate, 0.02, 1e-12);
+  EXPECT_NEAR(result.overall_time()->shift.interval.low, -0.03, 1e-12);
+  EXPECT_NEAR(result.overall_time()->shift.interval.high, 0.07, 1e-12);
+  EXPECT_EQ(result.overall_time()->decided, 1);
+  EXPECT_EQ(result.overall_time()->undecided, 1);
+  result.other_load = 4.6;
+  const core::Json json = to_json(result, {.plan = "volume/quick", .sides = "", .varied = {}});
+  EXPECT_NEAR(json.at("overall").at("ratio"), std::exp(0.02), 1e-12);
+  EXPECT_EQ(json.at("other_load"), 4.6);
+  result.configurations[0].shift.interval.high = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(result.overall_time());
+}
+
+TEST(ComparisonScreen, FoldsUndecidedConfigurationsUnlessVerbose) {
+  ComparisonResult result;
+  result.timed = true;
+  for (int i = 0; i < 9; ++i) {
+    result.configurations.push_back(
+        timed(fmt::format("step={}", i), comparison::PairVerdict::undecided, {0.01, {-0.1, 0.1}}));
+  }
+  ComparisonCommand command{.plan = "volume/quick", .sides = "", .varied = {}};
+  const std::string folded = screen_of(result, command);
+  EXPECT_THAT(folded, AllOf(HasSubstr("s2\n"), Not(HasSubstr("s3\n")), HasSubstr("6 more; ")));
+  EXPECT_EQ(to_json(result, command).at("configurations").size(), 9U);
+  command.verbose = true;
+  EXPECT_THAT(screen_of(result, command), AllOf(HasSubstr("s8\n"), Not(HasSubstr("more; "))));
+}
+
+TEST(ComparisonScreen, NoLineIsWiderThanTwoHundredCharacters) {
+  ComparisonResult result;
+  result.timed = true;
+  result.configurations = {timed(std::string("data=") + std::string(120, 'x'),
+                                 comparison::PairVerdict::undecided, {0.01, {-0.1, 0.1}})};
+  result.configurations[0].times = {{{1e6, 2e6, 3e6, 4e6, 5e6}, {1e6, 2e6, 3e6, 4e6, 5e6}}};
+  result.configurations[0].differences = {
+      {.kind = comparison::DifferenceKind::regression,
+       .subject = comparison::Subject::image,
+       .cause = comparison::DifferenceCause::other_bits,
+       .numbers = {{"pixels", 1}, {"total", 4}, {"error", 1}, {"x", 0}, {"y", 0}, {"rmse", 1}}}};
+  std::istringstream lines(screen_of(result, {.plan = "volume/quick", .sides = "", .varied = {}}));
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 210U) << line;
+}
+
+// A command that measures again is printed only if the budget ended too early. Otherwise, it would
+// be the same command again.
+TEST(ComparisonScreen, SuggestsAnotherMeasurementOnlyIfItIsLonger) {
+  ComparisonResult result;
+  result.timed = true;
+  result.configurations = {
+      timed("step=1", comparison::PairVerdict::undecided, {0.01, {-0.1, 0.1}})};
+  const ComparisonCommand command{.plan = "volume/quick",
+                                  .sides = "--a gl:x --b gl:y",
+                                  .varied = {},
+                                  .exact_plan = "volume/cost"};
+  EXPECT_THAT(screen_of(result, command),
+              AllOf(HasSubstr("triptych compare volume/cost --a gl:x --b gl:y\n"),
+                    Not(HasSubstr("triptych compare volume/quick"))));
+  EXPECT_FALSE(to_json(result, command).at("configurations").at(0).contains("settle"));
+  result.configurations[0].out_of_budget = true;
+  EXPECT_THAT(screen_of(result, command),
+              AllOf(HasSubstr("triptych compare volume/quick --a gl:x --b gl:y\n"),
+                    Not(HasSubstr("volume/cost"))));
+  EXPECT_TRUE(to_json(result, command).at("configurations").at(0).contains("settle"));
+}
+
+TEST(ComparisonScreen, WarnsIfADriverWasComparedWithItself) {
+  ComparisonResult result;
+  result.a = result.b = device("vulkan:x");
+  const ComparisonCommand command{.plan = "volume/quick", .sides = "", .varied = {}};
+  EXPECT_THAT(screen_of(result, command), Not(HasSubstr("!")));
+  result.ineffective_variables = {"VK_DRIVER_FILES"};
+  EXPECT_THAT(screen_of(result, command), HasSubstr("\n! Both sides loaded the same driver"));
+  EXPECT_EQ(to_json(result, command).at("ineffective_variables").at(0), "VK_DRIVER_FILES");
 }
 
 // Neither of the two compared devices supports the only configuration.

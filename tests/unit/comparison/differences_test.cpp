@@ -279,5 +279,30 @@ TEST_F(Differences, TheWorstComesFirst) {
   EXPECT_EQ(found.differences[0].about(), "statistic compute_invocations");
 }
 
+// Differences of code statistics have no ratio, but the group must begin with the worst one.
+TEST(DifferenceGroups, BeginWithTheLargestChangeForTheWorse) {
+  const auto code = [](double before, double now) {
+    Difference difference{.kind = DifferenceKind::regression,
+                          .subject = Subject::code,
+                          .cause = DifferenceCause::code_changed};
+    difference.code = judge::CodeComparison{};
+    difference.code->changes = {
+        {"x", "Inverse Throughput", judge::code_statistic("Inverse Throughput"), before, now},
+        {"x", "Instructions", judge::code_statistic("Instructions"), 1000, 1}};
+    return difference;
+  };
+  const auto groups = grouped(
+      {{"first", code(1000, 1006)}, {"worst", code(1000, 1270)}, {"second", code(1000, 1100)}});
+  ASSERT_EQ(groups.size(), 1U);
+  EXPECT_EQ(groups[0].where, "worst");
+  EXPECT_EQ(groups[0].count, 3);
+  EXPECT_NEAR(groups[0].difference.size(), std::log(1.27), 1e-12);
+  std::vector<std::string> order;
+  for (const LocatedDifference& each : groups[0].members) order.push_back(each.first);
+  EXPECT_THAT(order, testing::ElementsAre("worst", "second", "first"));
+  // A statistic that was 0 before, such as spilled registers, is the worst of all.
+  EXPECT_EQ(grouped({{"more", code(1000, 9000)}, {"new", code(0, 1)}}).at(0).where, "new");
+}
+
 }  // namespace
 }  // namespace triptych::comparison

@@ -76,6 +76,8 @@ TEST(ComparisonSentences, OfGroups) {
     text += words::text_of(group) + "\n";
     group.ratios.reset();
   }
+  group.ratios = {1.05, 21.7};
+  text += words::text_of(group) + "\n";
   expect_golden("groups.txt", text);
 }
 
@@ -88,7 +90,7 @@ TEST(ComparisonSentences, OfEveryReasonForNoTime) {
         .outcome = record::Outcome::crashed,
         .reason = {.cause = record::Cause::signal, .numbers = {{"signal", 11}}},
         .suspected = comparison::PairVerdict::slower,
-        .numbers = {{"ratio", 1.05}, {"process_runs", 10}, {"blocks", 384}, {"half_width", 0.02}}};
+        .numbers = {{"ratio", 1.05}, {"process_runs", 10}, {"blocks", 384}, {"most", 0.03}}};
     text += fmt::format("{}: {}\n", name_of(cause), words::text_of(reason));
   });
   for_each_value<WallClockCause>([&](WallClockCause cause) {
@@ -101,6 +103,24 @@ TEST(ComparisonSentences, OfEveryReasonForNoTime) {
   text += words::fails_differently(over_bound(16), crashed(11)) + "\n";
   text += words::fails_differently(over_bound(16), {}) + "\n";
   expect_golden("no_time.txt", text);
+}
+
+TEST(ComparisonSentences, AboutAllConfigurationsAndTheLoad) {
+  comparison::OverallTime time{.decided = 1, .undecided = 2, .averaged = 3};
+  time.shift = {0.01, {-0.05, 0.07}};
+  std::string text = words::overall(time) + "\n";
+  time.shift = {0.06, {0.05, 0.07}};
+  text += words::overall(time) + "\n" + words::load(0.04) + "\n" + words::load(4.6) + "\n";
+  text += words::when_undecided("") + "\n" + words::when_undecided("COMMAND") + "\n";
+  comparison::ComparisonResult result;
+  result.b = {.driver = "llvmpipe", .driver_version = "Mesa 1", .api_version = "1.3"};
+  result.ineffective_variables = {"LD_LIBRARY_PATH", "VK_DRIVER_FILES"};
+  text += words::same_driver(result);
+  comparison::SideBySide table{.unit = "ns", .clock = "wall", .devices = {}, .rows = {}};
+  text += words::uncertainty(table) + "\n";
+  table.process_runs = 5;
+  text += words::uncertainty(table) + "\n";
+  expect_golden("compared_sides.txt", text);
 }
 
 }  // namespace
