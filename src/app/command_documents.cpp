@@ -106,12 +106,7 @@ std::string completion_words(const CLI::App& command, const std::vector<std::str
 }
 
 std::string completion(const CLI::App& program) {
-  std::vector<std::string> plans;
-  for (const auto& suite : make_registry().suites) {
-    for (const std::string_view plan : suite->plan_names()) {
-      plans.push_back(fmt::format("{}/{}", suite->name(), plan));
-    }
-  }
+  const std::vector<std::string> plans = make_registry().plan_names();
   std::string names;
   std::string cases;
   for (const CLI::App* command : shown_commands(program)) {

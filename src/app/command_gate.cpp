@@ -125,6 +125,7 @@ judge::GateRequest request_for(const GateArguments& arguments, const JudgedPlan&
     if (compiles == judged.plan.compiled()) request.required_devices.push_back(glob);
   }
   request.without_devices = arguments.without_devices;
+  for (std::string& name : registry.plan_names()) request.known_plans.insert(std::move(name));
   request.program = version();
   request.checks = judged.checks;
   request.times_decide = arguments.times;

@@ -10,6 +10,7 @@
 #include "app/paths.hpp"
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
+#include "app/validate_arguments.hpp"
 #include "app/verdicts.hpp"
 #include "core/json_text.hpp"
 #include "core/output_files.hpp"
@@ -30,24 +31,6 @@ namespace {
 constexpr std::array<const char*, 6> validation_plans{"volume/quick",     "volume/stress",
                                                       "volume/accuracy",  "particles/quick",
                                                       "particles/stress", "particles/accuracy"};
-
-struct ValidateArguments {
-  std::vector<std::string> devices;
-  std::string out = "validation";
-  std::string baselines = default_baselines().string();
-  std::string junit;
-  std::string json;
-  PlanChoice choice;  // --set is not offered by this command
-  int jobs = 0;       // see measure::RunOptions
-  int limit_s = default_limit_s;
-  std::string expect;
-  std::string write_expect;
-  bool resume = false;
-  int repeat = 1;
-  bool without_data = false;
-  bool verbose = false;
-  std::string ci = default_ci;
-};
 
 // A validation checks only images and counters. Every device must draw the correct image with the
 // correct amount of work, but frame times, exact pixel values and statistics differ between
@@ -239,6 +222,8 @@ class Validation {
     request.devices = arguments_.devices;
     request.part = !arguments_.choice.is_whole();
     request.expected_outcomes = known_failures_;
+    request.resume_command = resume_command(arguments_);
+    for (std::string& name : registry_.plan_names()) request.known_plans.insert(std::move(name));
     const std::optional<record::Run> run = store_.latest_run(plan.name);
     const std::string id = run && !earlier_runs_.contains(run->id) ? run->id : "";
     judge::GateResult result = judge_stored_run(store_, id, arguments_.baselines, request);

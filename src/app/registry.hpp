@@ -21,6 +21,8 @@ struct Registry {
   [[nodiscard]] measure::SuiteWithTruth& suite(std::string_view name) const;
   [[nodiscard]] const measure::Backend& backend(std::string_view api) const;
   [[nodiscard]] measure::FindSuiteWithTruth find_suite() const;
+  // Returns the names of all built-in plans, such as "volume/quick".
+  [[nodiscard]] std::vector<std::string> plan_names() const;
   // Lists the devices of this machine. If globs are given, opens only the APIs that may have a
   // matching device, because opening the drivers of an API takes about a quarter of a second.
   [[nodiscard]] measure::Listing devices(const std::vector<std::string>& globs) const;

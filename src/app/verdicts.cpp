@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <map>
+#include <system_error>
 #include <utility>
 
 #include "app/arguments.hpp"
@@ -41,6 +42,12 @@ report::ScreenOptions screen_for(const record::Store& store) {
     options.width = std::min(width, widest);
   options.colours = ::isatty(STDOUT_FILENO) == 1 && std::getenv("NO_COLOR") == nullptr;
   return options;
+}
+
+// Returns whether the folder is the folder `baselines` of the working directory.
+bool is_own_folder(const std::string& baselines) {
+  std::error_code ignored;  // if there is no such folder, it is another one
+  return std::filesystem::equivalent(baselines, "baselines", ignored);
 }
 
 std::string page_for(const record::Store& store, measure::Truths& truths,
@@ -105,6 +112,10 @@ judge::GateResult judge_stored_run(const record::Store& store, const std::string
     judge::GateResult result =
         judge::judge_run(store, run, judge::Baselines(baselines, request.plan), complete);
     if (other_folder) result.baselines = baselines;
+    if (std::filesystem::is_directory(baselines) && !is_own_folder(baselines)) {
+      result.other_baselines = baselines;
+      result.lacks_own_baselines = !other_folder;
+    }
     return result;
   });
 }

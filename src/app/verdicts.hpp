@@ -37,7 +37,8 @@ void require_store(const std::filesystem::path& file);
                                                  const judge::GateRequest& request);
 
 // Returns a request to judge a plan on all devices with all of the plan's checks, using the
-// reference images in `truths`. Waivers that have expired by today's date do not apply.
+// reference images in `truths`. Waivers that have expired by today's date do not apply. The caller
+// adds the names of the plans that exist (GateRequest::known_plans), if it shows unused waivers.
 [[nodiscard]] judge::GateRequest request_of(measure::Truths& truths, const std::string& plan);
 // Like the overload above, but for the plan as it is currently defined, including the
 // configurations that the run should contain.

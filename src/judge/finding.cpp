@@ -23,7 +23,7 @@ constexpr Names<Verdict, 7> verdict_names{{
     {Verdict::regression, "regression"},
 }};
 
-constexpr Names<Cause, 76> cause_names{{
+constexpr Names<Cause, 77> cause_names{{
     {Cause::none, "none"},
     {Cause::as_stored, "as_stored"},
     {Cause::values_changed, "values_changed"},
@@ -51,6 +51,7 @@ constexpr Names<Cause, 76> cause_names{{
     {Cause::device_fault, "device_fault"},
     {Cause::unused_waiver, "unused_waiver"},
     {Cause::waiver_of_no_test, "waiver_of_no_test"},
+    {Cause::waiver_of_no_plan, "waiver_of_no_plan"},
     {Cause::within_bound, "within_bound"},
     {Cause::pixels_over_bound, "pixels_over_bound"},
     {Cause::not_finite, "not_finite"},
@@ -111,9 +112,10 @@ constexpr Names<Against, 6> against_names{{
     {Against::expectation, "expectation"},
 }};
 
-constexpr Names<Advice, 14> advice_names{{
+constexpr Names<Advice, 15> advice_names{{
     {Advice::none, "none"},
     {Advice::accept, "accept"},
+    {Advice::accept_or_compare, "accept_or_compare"},
     {Advice::run_again, "run_again"},
     {Advice::resume, "resume"},
     {Advice::restore_data, "restore_data"},
@@ -204,6 +206,10 @@ std::string kind_of(const Observation& observation) {
     kind += " " + each.name;
   }
   if (observation.cause == Cause::device_fault) kind += " " + observation.fact("kind");
+  if (is_about_waiver(observation)) {
+    kind += fmt::format(" {} {} {}", observation.fact("test"), observation.fact("device"),
+                        observation.fact("configuration"));
+  }
   if (observation.cause == Cause::unknown_values)
     kind += fmt::format(" {}", fmt::join(observation.names, " "));
   for (const Observation& each : observation.because) kind += "; " + kind_of(each);
@@ -211,9 +217,21 @@ std::string kind_of(const Observation& observation) {
 }
 
 std::string kind_of(const Finding& finding) {
-  return fmt::format("{}, {} {} {} {}", kind_of(static_cast<const Observation&>(finding)),
-                     finding.subject, name_of(finding.excuse.kind), name_of(finding.retry_result),
-                     fmt::join(finding.injected, "+"));
+  std::string kind =
+      fmt::format("{}, {} {} {} {}", kind_of(static_cast<const Observation&>(finding)),
+                  finding.subject, name_of(finding.excuse.kind), name_of(finding.retry_result),
+                  fmt::join(finding.injected, "+"));
+  // The final terminal output shows one reason and one date for each group of waived findings.
+  if (finding.excuse.kind == Excuse::Kind::waived) {
+    kind += fmt::format(" {} {}", finding.excuse.expiry, finding.excuse.reason);
+  }
+  return kind;
+}
+
+bool is_about_waiver(const Observation& observation) {
+  return observation.cause == Cause::unused_waiver ||
+         observation.cause == Cause::waiver_of_no_test ||
+         observation.cause == Cause::waiver_of_no_plan;
 }
 
 bool ended_abnormally(const Finding& finding) {

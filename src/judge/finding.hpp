@@ -42,7 +42,7 @@ enum class Cause : std::uint8_t {
   values_changed,      // values differ from the stored values [changes]
   unknown_values,      // values have no stored counterpart [names]
   not_stored,          // nothing is stored for some configurations [names]
-  no_stored_device,    // nothing is stored for this device or driver version
+  no_stored_device,    // nothing is stored for this device or driver version [<device_key>]
   not_reported,        // the device or the technique does not report this kind of value
   no_longer_reported,  // values are missing that existed when the baseline was accepted [names]
   untimed,             // the values were not read, because the run was not timed
@@ -64,8 +64,11 @@ enum class Cause : std::uint8_t {
   no_baselines,        // there are no baselines [<folder>]
   nothing_decided,     // no check reached a verdict for the device
   device_fault,        // see record/device_fault.hpp [<kind> <subject> <last_words>, detail]
-  unused_waiver,      // a waiver has expired and excuses nothing [<test> <device> <expiry>, detail]
+  // A waiver excuses nothing [<test> <device> <configuration> <expiry>, detail; "expired": 1 if it
+  // has expired].
+  unused_waiver,
   waiver_of_no_test,  // a waiver matches no test [<test>]
+  waiver_of_no_plan,  // a waiver names a plan that does not exist [<test> <plan>]
 
   // Causes that concern images.
   within_bound,
@@ -86,8 +89,11 @@ enum class Cause : std::uint8_t {
   other_driver_statistics,  // compared only with other drivers [<driver_version>, changes, names]
 
   // Causes that concern cost and memory.
-  two_counters,       // two emulators counted the run's instructions [<counted_by> <other>]
-  other_counter,      // the stored cost comes from another driver version or another emulator
+  two_counters,  // two emulators counted the run's instructions [<counted_by> <other>]
+  // The stored cost comes from another driver version or another emulator [<driver_version>
+  // <other_version> <counted_by> <other> <configuration>: the one with the largest increase,
+  // "configurations" "median_ratio" "worst_ratio"].
+  other_counter,
   frame_allocations,  // the allocations per frame changed [<configuration>, changes: the largest]
   preparing,          // the cost of preparation changed [<configuration>, changes: the largest]
   injected_memory,    // not compared, because the injected slowdown itself allocates memory
@@ -151,6 +157,7 @@ enum class Against : std::uint8_t {
 enum class Advice : std::uint8_t {
   none,
   accept,                // accept the values with `command`
+  accept_or_compare,     // accept the values with `command`, or compare two versions with --base
   run_again,             // run the plan again
   resume,                // finish the run with `command`
   restore_data,          // restore the data and run again, or accept with `command`
@@ -203,6 +210,8 @@ struct Observation {
 // Returns a string that is equal for all observations of one kind. It depends on the cause and the
 // names of the changed values, but not on numbers or messages.
 [[nodiscard]] std::string kind_of(const Observation& observation);
+// Returns whether the observation is about an entry of waivers.json that has no effect.
+[[nodiscard]] bool is_about_waiver(const Observation& observation);
 // Sets `numbers[name]` to `value`. Does nothing for an infinity or NaN, because JSON cannot
 // represent them.
 void set_number(Observation& observation, const std::string& name, double value);
@@ -257,8 +266,8 @@ struct Finding : Observation {
   // The finding of the second attempt, if its cause differs from the cause of this finding.
   std::vector<Observation> retry_observations = {};
 };
-// Like kind_of(const Observation&), but the string also depends on the subject, the excuse, the
-// second attempt and the injected faults.
+// Like kind_of(const Observation&), but the string also depends on the subject, the excuse (with
+// the reason of a waiver), the second attempt and the injected faults.
 [[nodiscard]] std::string kind_of(const Finding& finding);
 // Returns whether the configuration of the finding ended with an error, a crash, a timeout or a
 // lost device.

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "report/words/finding.hpp"
 #include "report/words/outcome.hpp"
 
 namespace triptych::report {
@@ -34,6 +35,62 @@ std::string absent_data(std::span<const judge::GateResult* const> results) {
       "download the files{}",
       files.size(), *files.begin(), files.size() > 1 ? ", …" : "", missing.size(),
       excused ? "" : "; if this machine does not need them, use --without-data");
+}
+
+// Returns a line for each waiver that has no effect.
+std::set<std::string> ineffective_waivers(std::span<const judge::GateResult* const> results) {
+  std::set<std::string> lines;
+  for (const judge::GateResult* result : results) {
+    for (const judge::Finding& finding : result->findings) {
+      if (judge::is_about_waiver(finding)) lines.insert(words::text_of(finding));
+    }
+  }
+  return lines;
+}
+
+// Returns a line about the baselines, if they are not in the working directory's own folder.
+std::string other_baselines(std::span<const judge::GateResult* const> results) {
+  std::set<std::string> folders;
+  bool fallback = false;
+  for (const judge::GateResult* result : results) {
+    if (result->other_baselines.empty()) continue;
+    folders.insert(result->other_baselines);
+    fallback = fallback || result->lacks_own_baselines;
+  }
+  if (folders.empty()) return {};
+  return fmt::format("compared with the baselines in {}{}", fmt::join(folders, ", "),
+                     fallback ? ", because the working directory has no folder `baselines`" : "");
+}
+
+// Returns a line about the devices whose driver versions were never accepted. If a version was
+// accepted for some of the judged plans, also names the plans for which it was not.
+std::string unaccepted_drivers(std::span<const judge::GateResult* const> results) {
+  std::map<std::string, std::set<std::string>> plans_of_device;
+  std::set<std::string> accepted_somewhere;
+  std::map<std::string, std::string> drivers;
+  for (const judge::GateResult* result : results) {
+    for (const auto& [id, device] : result->tested) {
+      drivers[id] = words::driver_text(device);
+      if (device.accepted) {
+        accepted_somewhere.insert(id);
+      } else {
+        plans_of_device[id].insert(result->plan);
+      }
+    }
+  }
+  std::map<std::string, std::vector<std::string>> devices_of_driver;
+  for (const auto& [id, plans] : plans_of_device) {
+    std::string driver = drivers[id];
+    if (accepted_somewhere.contains(id)) driver += fmt::format(" in {}", fmt::join(plans, ", "));
+    devices_of_driver[driver].push_back(id);
+  }
+  if (devices_of_driver.empty()) return {};
+  std::vector<std::string> parts;
+  for (const auto& [driver, devices] : devices_of_driver) {
+    parts.push_back(fmt::format("{} ({})", driver, fmt::join(devices, ", ")));
+  }
+  return fmt::format("driver versions that are not among the accepted ones: {}",
+                     fmt::join(parts, "; "));
 }
 
 }  // namespace
@@ -67,6 +124,9 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
         "this verdict tests only Triptych, because {} record{} injected faults ({})",
         injected_records, injected_records == 1 ? " has" : "s have", fmt::join(injected, ", ")));
   }
+  for (std::string line : {other_baselines(results), unaccepted_drivers(results)}) {
+    if (!line.empty()) lines.push_back(std::move(line));
+  }
   for (const std::string& program : programs) {
     lines.push_back(fmt::format("measured by another build of Triptych: {}", program));
   }
@@ -79,6 +139,7 @@ std::vector<std::string> circumstances(std::span<const judge::GateResult* const>
     lines.push_back(fmt::format("unusable on this machine: {}: {}", fmt::join(what, ", "), reason));
   }
   if (std::string data = absent_data(results); !data.empty()) lines.push_back(std::move(data));
+  for (const std::string& waiver : ineffective_waivers(results)) lines.push_back(waiver);
   return lines;
 }
 

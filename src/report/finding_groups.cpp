@@ -283,12 +283,6 @@ class FindingGrouper {
   std::map<std::tuple<Verdict, Check, std::string_view, std::string>, Members> by_kind_;
 };
 
-// Returns whether `triptych render` reproduces the finding. This includes hangs, because `render`
-// has a time limit.
-bool is_reproduced_by_render(const Finding& finding) {
-  return finding.check == Check::image || finding.check == Check::stress || finding.reason.limit();
-}
-
 // Creates a command that measures and judges again, with a separate store. A difference from stored
 // values cannot be reproduced in any other way.
 void make_gate_command(const Finding& finding, const judge::GateResult& result, Command& command) {
@@ -333,9 +327,8 @@ FaultAttribution FindingGroup::attribution() const {
   const auto with_same_api = [&](const std::vector<std::string>& correct) {
     std::vector<std::string> same;
     for (const std::string& each : correct) {
-      const bool itself = each == first->device;  // the same device with another driver version
       const bool other = record::family_of(each) != record::family_of(first->device);
-      if (each.starts_with(api) && (itself || other)) same.push_back(each);
+      if (each.starts_with(api) && other) same.push_back(each);
     }
     return same;
   };
@@ -343,6 +336,11 @@ FaultAttribution FindingGroup::attribution() const {
     return {FaultAttribution::Kind::driver, std::move(passing)};
   if (auto passed = with_same_api(first->accepted_on); !passed.empty()) {
     return {FaultAttribution::Kind::driver_since_accepted, std::move(passed)};
+  }
+  // Findings about an accepted driver version have no list of accepted devices, so the device in
+  // this list has another driver version.
+  if (std::ranges::find(first->accepted_on, first->device) != first->accepted_on.end()) {
+    return {FaultAttribution::Kind::driver_version, {}};
   }
   return {};
 }
@@ -386,6 +384,12 @@ bool merge_into(FindingGroup& group, const FindingGroup& other) {
 
 bool is_open(const Finding& finding) {
   return finding.verdict == Verdict::regression || finding.verdict == Verdict::cannot_judge;
+}
+
+bool is_reproduced_by_render(const Finding& finding) {
+  if (finding.device.empty() || finding.configuration.empty()) return false;
+  return finding.check == Check::image || finding.check == Check::stress ||
+         (finding.check != Check::code && finding.reason.limit());
 }
 
 std::string command_of(const Finding& finding, const judge::GateResult& result) {

@@ -18,6 +18,7 @@ struct FaultAttribution {
     unknown,
     driver,                 // at fault: the devices, which have the same API, pass
     driver_since_accepted,  // at fault: the devices, which have the same API, passed when accepted
+    driver_version,         // at fault: another version of the driver passed when accepted
     not_the_driver          // not at fault: the devices, which have other drivers, fail, too
   };
   Kind kind = Kind::unknown;
@@ -75,6 +76,10 @@ bool merge_into(FindingGroup& group, const FindingGroup& other);
 
 // Returns whether the finding needs attention: it is a regression, or could not be judged.
 [[nodiscard]] bool is_open(const judge::Finding& finding);
+
+// Returns whether `triptych render` reproduces the finding, so that `triptych reduce` finds a
+// smaller frame that fails. This includes hangs, because both commands have a time limit.
+[[nodiscard]] bool is_reproduced_by_render(const judge::Finding& finding);
 
 // Returns a command that reproduces a finding of the result and that users can copy. It sets the
 // environment variables with which the device was measured. Returns "" if there is no such command.

@@ -10,6 +10,7 @@
 #include "core/exit_code.hpp"
 #include "report/circumstances.hpp"
 #include "report/words/check.hpp"
+#include "report/words/finding.hpp"
 
 namespace triptych::report {
 namespace {
@@ -118,6 +119,43 @@ void add(std::vector<Cause>& causes, const GateResult& result, FindingGroup grou
   ++same->plans;
 }
 
+std::map<Check, std::set<std::string>> undecided_checks(
+    std::span<const GateResult* const> results) {
+  std::set<Check> decided;
+  for (const GateResult* result : results) {
+    const auto undecided = result->undecided_checks();
+    for (const Check check : result->checks) {
+      const auto found = undecided.find(check);
+      if (found == undecided.end() || !found->second.empty()) decided.insert(check);
+    }
+  }
+  std::map<Check, std::set<std::string>> all;
+  for (const GateResult* result : results) {
+    for (auto& [check, devices] : result->undecided_checks()) {
+      std::set<std::string>& merged = all[check];
+      if (!decided.contains(check)) continue;
+      const std::set<std::string>& more = devices.empty() ? result->devices : devices;
+      merged.insert(more.begin(), more.end());
+    }
+  }
+  return all;
+}
+
+std::vector<TestedDriver> tested_drivers(std::span<const GateResult* const> results) {
+  std::map<std::string, std::set<std::string>> by_driver;
+  for (const GateResult* result : results) {
+    for (const auto& [id, device] : result->tested) {
+      by_driver[words::driver_text(device)].insert(id);
+    }
+  }
+  std::vector<TestedDriver> drivers;
+  for (const auto& [driver, devices] : by_driver) {
+    drivers.push_back({driver, {devices.begin(), devices.end()}});
+  }
+  std::ranges::sort(drivers, {}, &TestedDriver::devices);
+  return drivers;
+}
+
 }  // namespace
 
 Overview overview(std::span<const GateResult* const> results) {
@@ -141,6 +179,8 @@ Overview overview(std::span<const GateResult* const> results) {
                              [](const Cause& cause) { return cause.group.first->verdict; });
   }
   all.bounds = nearest_bounds(results);
+  all.drivers = tested_drivers(results);
+  all.undecided = undecided_checks(results);
   all.circumstances = circumstances(results);
   for (const words::CheckWords& kind : words::check_words) {
     if (!kind.always && !was_checked(kind, results)) continue;

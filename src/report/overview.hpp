@@ -2,6 +2,8 @@
 // The verdict on all plans in a few rows. The final terminal output, the HTML page and the Markdown
 // summary begin with this overview.
 
+#include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,6 +30,12 @@ struct Cause {
   std::size_t plans = 1;
 };
 
+// A driver version, with the devices that were tested with it.
+struct TestedDriver {
+  std::string driver;                // name and version: "llvmpipe Mesa 22.3.6 (LLVM 15.0.6)"
+  std::vector<std::string> devices;  // sorted ids
+};
+
 struct Overview {
   core::ExitCode code = core::ExitCode::cannot_judge;
   std::size_t devices = 0;
@@ -37,6 +45,10 @@ struct Overview {
   std::vector<Cause> open;     // findings that need attention, the worst first
   std::vector<Cause> remarks;  // waived, improved, advisory or skipped findings, without passes
   std::vector<NearestBound> bounds;
+  std::vector<TestedDriver> drivers;  // sorted by the first device
+  // The requested checks that reached no verdict, with the devices for which this is the case. The
+  // set of devices is empty if the check reached no verdict in any plan.
+  std::map<judge::Check, std::set<std::string>> undecided;
   std::vector<std::string> circumstances;  // see report/circumstances.hpp
 };
 

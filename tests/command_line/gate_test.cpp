@@ -76,6 +76,21 @@ TEST(Gate, ACheckWithoutAVerdictIsSkippedInCTest) {
       << judged.output;
 }
 
+// The baselines of the program replace those of the working directory only if the gate names them.
+TEST(Gate, NamesTheBaselinesThatReplaceMissingOnes) {
+  const Program program;
+  ASSERT_EQ(program.run(measure_into("s.sqlite") + " --untimed").code, 0);
+  const std::string gate = fmt::format("gate volume/quick --store s.sqlite {}", tiny);
+  const Result replaced = program.run(gate);
+  EXPECT_NE(replaced.output.find("! compared with the baselines in /"), std::string::npos)
+      << replaced.output;
+  std::filesystem::create_directory(program.folder() / "baselines");
+  for (const std::string& options : {std::string(), std::string(" --baselines ./baselines")}) {
+    const Result own = program.run(gate + options);
+    EXPECT_EQ(own.output.find("compared with the baselines in"), std::string::npos) << own.output;
+  }
+}
+
 TEST(Gate, APartialRunIsCompletedInItsOwnStore) {
   const Program program;
   const std::string accept = "accept volume/quick --reason x --baselines baselines --store ";

@@ -99,6 +99,10 @@ TEST_F(Resume, AnInterruptedValidationEndsWithTheSummaryScreen) {
   const std::string numbers = fmt::format("{} of {} planned", lacking, wanted);
   EXPECT_THAT(ended.output, HasSubstr(numbers));
   EXPECT_THAT(program.read("validation/gate.log"), HasSubstr(numbers));
+  // `triptych run --resume` would finish only one of the plans, and judge none of them.
+  const std::string command = "triptych validate --device null:scripted --resume --out validation";
+  EXPECT_EQ(missing[0].at("advice").at("command"), command);
+  EXPECT_EQ(findings_of(json, "no_run").at(0).at("advice").at("command"), command);
   EXPECT_THAT(findings_of(json, "no_run"), SizeIs(5));
   EXPECT_THAT(findings_of(json, "no_run", "particles/accuracy"), SizeIs(1));
 }

@@ -256,8 +256,12 @@ const std::vector<AbsentDevice>& Baselines::absent_devices() const {
 }
 
 const std::vector<Waiver>& Baselines::waivers(const std::string& today) const {
-  if (!cache_->waivers) cache_->waivers = read_waivers(root_ / "waivers.json", today);
+  if (!cache_->waivers) cache_->waivers = read_waivers(waivers_file(), today);
   return *cache_->waivers;
+}
+
+bool Baselines::has_plan(const std::string& plan) const {
+  return fs::is_directory(root_ / plan);
 }
 
 }  // namespace triptych::judge

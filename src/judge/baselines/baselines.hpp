@@ -167,6 +167,9 @@ class Baselines {
   // are absent from certain machines on purpose.
   [[nodiscard]] const std::vector<AbsentDevice>& absent_devices() const;
   [[nodiscard]] std::filesystem::path absent_file() const { return root_ / "absent.json"; }
+  [[nodiscard]] std::filesystem::path waivers_file() const { return root_ / "waivers.json"; }
+  // Returns whether there is a folder for the baselines of a plan, such as "volume/quick".
+  [[nodiscard]] bool has_plan(const std::string& plan) const;
 
  private:
   std::filesystem::path root_;

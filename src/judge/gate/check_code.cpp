@@ -128,8 +128,8 @@ class DeviceCodeCheck {
       if (code.device == device_.id) other = &code;
     }
     if (other == nullptr) {
-      return add(findings, Verdict::advisory, {.cause = Cause::no_stored_device},
-                 view_.accept_advice());
+      return add(findings, view_.not_stored_verdict(), {.cause = Cause::no_stored_device},
+                 view_.accept_advice(Advice::accept_or_compare));
     }
     CodeTotals totals;
     for (const record::Record* record : records_) {
@@ -138,14 +138,15 @@ class DeviceCodeCheck {
         totals.add(record->configuration, other_code->second, record->code);
       }
     }
-    add(findings, Verdict::advisory,
+    add(findings, view_.not_stored_verdict(),
         {.cause = Cause::other_compiler,
          .against = Against::other_devices,
          .numbers = {{"configurations", static_cast<double>(totals.configurations())},
                      {"changed", static_cast<double>(totals.changed())}},
          .changes = changes_of(totals),
          .facts = {{"driver_version", device_.driver_version},
-                   {"other_version", other->driver_version}}});
+                   {"other_version", other->driver_version}}},
+        view_.accept_advice(Advice::accept_or_compare));
   }
 
   void compare(const record::Record& record, std::vector<Finding>& findings) {

@@ -2,7 +2,8 @@
 // version and the same emulator (the program that counts instructions). The instructions of device
 // code, the instructions of the driver, and the cache misses can each cause a regression.
 // Allocations and the cost of preparation, which is everything before the first frame, are only
-// shown.
+// shown. If instructions were counted but no comparable counts are stored, the cost cannot be
+// judged.
 
 #include <algorithm>
 #include <cmath>
@@ -90,15 +91,21 @@ class DeviceCostCheck {
       if (other == nullptr && cost.device == device_.id) other = &cost;
     }
     if (other == nullptr) {
-      return add(findings, Verdict::advisory, {.cause = Cause::no_stored_device},
-                 view_.accept_advice());
+      return add(findings, view_.not_stored_verdict(), {.cause = Cause::no_stored_device},
+                 view_.accept_advice(Advice::accept_or_compare));
     }
     std::vector<double> ratios;
+    double worst = 0;
+    std::string worst_configuration;
     for (const record::Record* record : records_) {
       const auto other_cost = other->configurations.find(record->configuration);
       if (record->cost.empty() || other_cost == other->configurations.end()) continue;
       const double before = frame_instructions(other_cost->second.frame);
-      if (before > 0) ratios.push_back(frame_instructions(record->cost) / before);
+      if (before <= 0) continue;
+      ratios.push_back(frame_instructions(record->cost) / before);
+      if (ratios.back() <= worst) continue;
+      worst = ratios.back();
+      worst_configuration = record->configuration;
     }
     Observation observation{.cause = Cause::other_counter,
                             .against = Against::other_devices,
@@ -109,8 +116,11 @@ class DeviceCostCheck {
     if (!ratios.empty()) {
       observation.numbers["configurations"] = static_cast<double>(ratios.size());
       set_number(observation, "median_ratio", estimation::median(ratios));
+      set_number(observation, "worst_ratio", worst);
+      observation.facts["configuration"] = worst_configuration;
     }
-    add(findings, Verdict::advisory, std::move(observation));
+    add(findings, view_.not_stored_verdict(), std::move(observation),
+        view_.accept_advice(Advice::accept_or_compare));
   }
 
   void compare(const record::Record& record, std::vector<Finding>& findings) {

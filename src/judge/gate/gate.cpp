@@ -129,67 +129,24 @@ void report_device_faults(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
+// Reports that the run has no measurement. If a regression of a configuration explains this, such
+// as a crash of every configuration, nothing more is reported.
 void report_nothing_measured(const RunView& view, const std::string& run,
                              std::vector<Finding>& findings) {
+  const bool any_measured = !view.measured.empty() || !view.with_other_data.empty();
+  const bool explained = std::ranges::any_of(findings, [](const Finding& finding) {
+    return finding.verdict == Verdict::regression && !finding.configuration.empty();
+  });
   const Check check = *view.checks.begin();
   if (run.empty()) {
-    findings.push_back(finding_about(view, check, Verdict::cannot_judge, {.cause = Cause::no_run}));
-  } else if (view.measured.empty() && view.with_other_data.empty()) {
+    findings.push_back(finding_about(view, check, Verdict::cannot_judge, {.cause = Cause::no_run},
+                                     view.resume_advice()));
+  } else if (!any_measured && !explained) {
     findings.push_back(
         finding_about(view, check, Verdict::cannot_judge,
                       {.cause = Cause::nothing_measured,
                        .numbers = {{"records", static_cast<double>(view.records.size())}},
                        .facts = {{"run", run}, {"plan", view.request.plan}}}));
-  }
-  report_required_devices(view, findings);
-}
-
-std::set<std::string> configurations_of(const RunView& view, const std::string& device) {
-  std::set<std::string> recorded;
-  for (const record::Record& record : view.records) {
-    if (record.device == device) recorded.insert(record.configuration);
-  }
-  return recorded;
-}
-
-void report_missing(const RunView& view, const record::Device& device,
-                    const std::set<std::string>& expected, const std::set<std::string>& recorded,
-                    std::string_view kind, std::vector<Finding>& findings) {
-  std::vector<std::string> missing;
-  std::ranges::set_difference(expected, recorded, std::back_inserter(missing));
-  if (missing.empty()) return;
-  findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
-                                   {.cause = Cause::missing,
-                                    .numbers = {{"missing", static_cast<double>(missing.size())},
-                                                {"wanted", static_cast<double>(expected.size())}},
-                                    .names = missing,
-                                    .facts = {{"kind", std::string(kind)}}},
-                                   {Advice::resume, fmt::format("triptych run {} --resume{}",
-                                                                core::shell_quoted(view.argument()),
-                                                                view.request.store_option)}));
-}
-
-// Reports missing and extra records. Every device must have a record, with any outcome, for every
-// configuration of the plan and for every accepted configuration, but for no other configuration.
-void report_coverage(const RunView& view, std::vector<Finding>& findings) {
-  const std::vector<std::string> planned =
-      view.request.expected.empty() ? view.store.planned(view.run) : view.request.expected;
-  const std::set<std::string> expected(planned.begin(), planned.end());
-  std::set<std::string> accepted;
-  if (view.baselines.present() && !view.request.part) {
-    for (std::string& each : view.baselines.configurations()) accepted.insert(std::move(each));
-  }
-  for (const auto& [id, device] : view.devices) {
-    const std::set<std::string> recorded = configurations_of(view, id);
-    report_missing(view, device, expected, recorded, "planned", findings);
-    std::set<std::string> covered = recorded;
-    covered.insert(expected.begin(), expected.end());
-    report_missing(view, device, accepted, covered, "accepted", findings);
-    std::vector<std::string> extra;
-    std::ranges::set_difference(recorded, expected, std::back_inserter(extra));
-    if (expected.empty() || extra.empty()) continue;
-    findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
-                                     {.cause = Cause::extra, .names = extra}, {Advice::run_again}));
   }
 }
 
@@ -351,11 +308,11 @@ void report_run_contents(const RunView& view, GateResult& result) {
   result.measured_by = other_programs(view);
   const std::string day = view.run.started_at.substr(0, 10);
   if (days_between(day, view.request.today).value_or(0) > 1) result.old_run_date = day;
-  report_nothing_measured(view, result.run, result.findings);
+  report_required_devices(view, result.findings);
   report_outcomes(view, result.findings);
   report_device_faults(view, result.findings);
   report_other_plan(view, result.run, result.findings);
-  report_coverage(view, result.findings);
+  report_configurations(view, result.findings);
   report_other_data(view, result.findings);
   if (!view.baselines.present()) report_no_baselines(view, result.findings);
 }
@@ -420,12 +377,16 @@ GateResult judge_run(const record::Store& store, const std::string& run, const B
   result.defaults = request.defaults;
   result.times_decided = request.times_decide;
   result.part = request.part;
+  result.checks = view.checks;
+  result.tested = tested_devices(view);
+  result.waivers_file = baselines.waivers_file().string();
   report_run_contents(view, result);
   report_incomplete_run(view, result.findings);
   JudgingState state{view, result};
   run_checks(state);
   apply_waivers(view, result.findings);
   apply_expected_outcomes(view, result.findings);
+  report_nothing_measured(view, run, result.findings);
   report_undecided_devices(view, result);
   add_accepting_devices(view, result.findings);
   sort_findings(result.findings);

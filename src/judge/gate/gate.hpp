@@ -23,6 +23,13 @@
 
 namespace triptych::judge {
 
+// The driver of a device, as shown with the verdict.
+struct TestedDevice {
+  std::string driver;          // name of the driver
+  std::string driver_version;  // as reported by the driver
+  bool accepted = true;        // false if the baselines contain no results of this driver version
+};
+
 struct GateResult {
   std::string plan;
   std::string run;
@@ -31,16 +38,24 @@ struct GateResult {
   // scene on each device.
   std::vector<accuracy::AccuracyScene> accuracies = {};
   std::vector<CorrelationPair> correlations = {};  // the pairs of devices that the report plots
+  std::set<Check> checks = {};                     // the checks that were requested
   std::set<std::string> devices = {};  // requested devices with at least one measurement
+  // The devices of the run that the store describes, by id.
+  std::map<std::string, TestedDevice> tested = {};
   // The environment variables with which each device was measured, by device id. Printed commands
   // set them again.
   std::map<std::string, std::map<std::string, std::string>> environments = {};
   std::string argument = {};                         // copied from the request
   std::map<std::string, std::string> defaults = {};  // copied from the request
   std::string baselines = {};                        // baselines folder, if commands must name it
-  bool times_decided = false;                        // copied from the request
-  bool part = false;                                 // copied from the request
-  bool data_excused = false;                         // missing data files are not an error
+  // The baselines folder, if it is not the folder `baselines` of the working directory, and whether
+  // it was used only because the working directory has no such folder.
+  std::string other_baselines = {};
+  bool lacks_own_baselines = false;
+  std::string waivers_file = {};  // waivers.json of the baselines
+  bool times_decided = false;     // copied from the request
+  bool part = false;              // copied from the request
+  bool data_excused = false;      // missing data files are not an error
   // Notes about the run, which the final terminal output shows for every verdict: loaders and
   // drivers that failed during device enumeration; the injected faults, each with its number of
   // records; the program that measured, if it is not the program that judges; and the day on which
@@ -51,6 +66,10 @@ struct GateResult {
   std::string old_run_date = {};
   // Returns the devices that have only advisories and skips.
   [[nodiscard]] std::vector<std::string> undecided_devices() const;
+  // Returns the requested checks that reached no verdict, with the devices for which this is the
+  // case. The set of devices is empty if the check reached no verdict for any device. A device that
+  // does not support a check, so that the check is only skipped, is not listed.
+  [[nodiscard]] std::map<Check, std::set<std::string>> undecided_checks() const;
   [[nodiscard]] core::ExitCode exit_code() const;
 };
 
@@ -62,6 +81,8 @@ struct GateRequest {
   // " --store FILE" and " --baselines FOLDER" for printed commands; empty for the defaults.
   std::string store_option = {};
   std::string baselines_option = {};
+  // The command that finishes an incomplete run. If it is empty, it is `triptych run --resume`.
+  std::string resume_command = {};
   std::set<Check> checks;            // empty: the checks of the run's plan (checks_of_run)
   std::vector<std::string> devices;  // globs; empty: all devices in the run
   // Globs, each of which must match a device on which something was measured.
@@ -104,6 +125,9 @@ struct GateRequest {
   // skipped, it cannot be judged. nullopt means that there is no list, so any configuration may be
   // skipped.
   std::optional<std::vector<Waiver>> expected_outcomes = {};
+  // The names of the plans that exist, such as "volume/quick". A waiver that names another plan is
+  // reported, unless there are baselines for that plan. Empty if they are not known.
+  std::set<std::string> known_plans = {};
   // Returns the current content hash of the data from which the record's reference image is drawn,
   // in the record's voxel format, or "" if it is not known. If the function is empty, the data are
   // assumed to be unchanged.

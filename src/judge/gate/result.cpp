@@ -36,6 +36,28 @@ std::vector<std::string> GateResult::undecided_devices() const {
   return undecided;
 }
 
+std::map<Check, std::set<std::string>> GateResult::undecided_checks() const {
+  std::map<Check, std::map<std::string, bool>> decided;  // by device; only skipped: not contained
+  std::set<Check> with_decision;
+  for (const Finding& finding : findings) {
+    if (is_decision(finding.verdict)) with_decision.insert(finding.check);
+    if (finding.device.empty() || finding.verdict == Verdict::skipped) continue;
+    bool& is_decided = decided[finding.check][finding.device];
+    is_decided = is_decided || is_decision(finding.verdict);
+  }
+  std::map<Check, std::set<std::string>> undecided;
+  for (const Check check : checks) {
+    if (!with_decision.contains(check)) {
+      undecided[check] = {};
+      continue;
+    }
+    for (const auto& [device, is_decided] : decided[check]) {
+      if (!is_decided) undecided[check].insert(device);
+    }
+  }
+  return undecided;
+}
+
 // The gate passes only if it reached at least one decision, and at least one for each device.
 core::ExitCode GateResult::exit_code() const {
   if (count(*this, Verdict::regression) > 0) return core::ExitCode::regression;
@@ -69,6 +91,14 @@ AdviceWithCommand RunView::accept_advice(Advice advice) const {
   return {advice,
           fmt::format("triptych accept {}{}{} --reason TEXT", core::shell_quoted(argument()),
                       request.store_option, request.baselines_option)};
+}
+
+AdviceWithCommand RunView::resume_advice() const {
+  const std::string& command = request.resume_command;
+  if (!command.empty()) return {Advice::resume, command};
+  if (run.id.empty()) return {};  // no run exists that could be resumed
+  return {Advice::resume, fmt::format("triptych run {} --resume{}", core::shell_quoted(argument()),
+                                      request.store_option)};
 }
 
 namespace {

@@ -1,5 +1,5 @@
-// Checks whether the run covers all devices that its machine should have, and all checks that its
-// baselines contain.
+// Checks whether the run covers all devices that its machine should have, all configurations of its
+// plan, and all checks that its baselines contain.
 
 #include <algorithm>
 #include <iterator>
@@ -170,7 +170,62 @@ const record::Unusable* unusable_device(const RunView& view, const std::string& 
   return nullptr;
 }
 
+std::set<std::string> configurations_of(const RunView& view, const std::string& device) {
+  std::set<std::string> recorded;
+  for (const record::Record& record : view.records) {
+    if (record.device == device) recorded.insert(record.configuration);
+  }
+  return recorded;
+}
+
+void report_missing(const RunView& view, const record::Device& device,
+                    const std::set<std::string>& expected, const std::set<std::string>& recorded,
+                    std::string_view kind, std::vector<Finding>& findings) {
+  std::vector<std::string> missing;
+  std::ranges::set_difference(expected, recorded, std::back_inserter(missing));
+  if (missing.empty()) return;
+  findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
+                                   {.cause = Cause::missing,
+                                    .numbers = {{"missing", static_cast<double>(missing.size())},
+                                                {"wanted", static_cast<double>(expected.size())}},
+                                    .names = missing,
+                                    .facts = {{"kind", std::string(kind)}}},
+                                   view.resume_advice()));
+}
+
 }  // namespace
+
+void report_configurations(const RunView& view, std::vector<Finding>& findings) {
+  const std::vector<std::string> planned =
+      view.request.expected.empty() ? view.store.planned(view.run) : view.request.expected;
+  const std::set<std::string> expected(planned.begin(), planned.end());
+  std::set<std::string> accepted;
+  if (view.baselines.present() && !view.request.part) {
+    for (std::string& each : view.baselines.configurations()) accepted.insert(std::move(each));
+  }
+  for (const auto& [id, device] : view.devices) {
+    const std::set<std::string> recorded = configurations_of(view, id);
+    report_missing(view, device, expected, recorded, "planned", findings);
+    std::set<std::string> covered = recorded;
+    covered.insert(expected.begin(), expected.end());
+    report_missing(view, device, accepted, covered, "accepted", findings);
+    std::vector<std::string> extra;
+    std::ranges::set_difference(recorded, expected, std::back_inserter(extra));
+    if (expected.empty() || extra.empty()) continue;
+    findings.push_back(finding_about(view, device, *view.checks.begin(), Verdict::cannot_judge,
+                                     {.cause = Cause::extra, .names = extra}, {Advice::run_again}));
+  }
+}
+
+std::map<std::string, TestedDevice> tested_devices(const RunView& view) {
+  std::map<std::string, TestedDevice> tested;
+  for (const auto& [id, device] : view.devices) {
+    if (device.driver.empty() && device.driver_version.empty()) continue;
+    tested[id] = {device.driver, device.driver_version,
+                  !view.baselines.present() || view.knows_driver(device)};
+  }
+  return tested;
+}
 
 void report_required_devices(const RunView& view, std::vector<Finding>& findings) {
   for (const std::string& glob : view.request.required_devices) {

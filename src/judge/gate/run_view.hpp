@@ -29,6 +29,12 @@ struct RunView {
   }
   // Returns whether this version of the device's driver was accepted.
   [[nodiscard]] bool knows_driver(const record::Device& device) const;
+  // Returns the verdict of a check that must compare with values of the same driver version, if
+  // none are stored. It is only an advisory in CTest tests of a single check, which are skipped if
+  // they have no verdict.
+  [[nodiscard]] Verdict not_stored_verdict() const {
+    return request.decides_each_device ? Verdict::cannot_judge : Verdict::advisory;
+  }
   // Returns the test id of findings that belong to no device.
   [[nodiscard]] std::string plan_test_id(Check check) const;
   // Returns the plan as a command-line argument.
@@ -38,6 +44,8 @@ struct RunView {
   [[nodiscard]] std::string today() const;
   // Returns advice with the `triptych accept` command that creates or updates the baselines.
   [[nodiscard]] AdviceWithCommand accept_advice(Advice advice = Advice::accept) const;
+  // Returns advice with the command that measures what the run lacks.
+  [[nodiscard]] AdviceWithCommand resume_advice() const;
 };
 
 [[nodiscard]] Finding finding_about(const record::Record& record, Check check, Verdict verdict,
@@ -85,6 +93,13 @@ struct AccuracyFindings {
 // Returns one finding for each record that has a score, including records that failed.
 [[nodiscard]] std::vector<Finding> check_stress(const RunView& view);
 
+// Describes the devices of the run (GateResult::tested).
+[[nodiscard]] std::map<std::string, TestedDevice> tested_devices(const RunView& view);
+
+// Reports missing and extra records. Every device must have a record, with any outcome, for every
+// configuration of the plan and for every accepted configuration, but for no other configuration.
+void report_configurations(const RunView& view, std::vector<Finding>& findings);
+
 // Reports required devices that measured nothing, with the reason if the run recorded one.
 void report_required_devices(const RunView& view, std::vector<Finding>& findings);
 
@@ -96,8 +111,9 @@ void report_incomplete_run(const RunView& view, std::vector<Finding>& findings);
 // record.
 [[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);
 
-// Changes regressions that waivers.json excuses to `waived`. Reports waivers that have expired and
-// excuse nothing, and waivers that match no test.
+// Changes regressions that waivers.json excuses to `waived`. Reports waivers that excuse nothing,
+// although this run covers everything that they can excuse; expired waivers that excuse nothing;
+// and waivers that match no test or name no plan.
 void apply_waivers(const RunView& view, std::vector<Finding>& findings);
 
 // Compares findings with GateRequest::expected_outcomes. A known failure becomes `waived`, a pass

@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
 
 #include "core/glob.hpp"
 #include "judge/gate/run_view.hpp"
@@ -60,6 +63,11 @@ void compare_with_expected(const RunView& view, Finding& finding) {
   }
 }
 
+// Returns whether the check can have regressions. Times have none, unless they affect the verdict.
+bool can_regress(const RunView& view, Check check) {
+  return check != Check::timing || view.request.times_decide;
+}
+
 // Returns whether the waiver covers any configuration and check that this gate judged. A waiver for
 // another plan covers none.
 bool concerns_run(const Waiver& waiver, const RunView& view) {
@@ -70,17 +78,89 @@ bool concerns_run(const Waiver& waiver, const RunView& view) {
   });
 }
 
-// Returns whether the waiver names this plan, but matches no test of it.
+// Returns the beginning of all test ids of the plan: "volume.quick.".
+std::string test_prefix(const RunView& view) {
+  const std::string_view check = name_of(Check::image);
+  const std::string plan = view.plan_test_id(Check::image);
+  if (view.records.empty()) return plan.substr(0, plan.size() - check.size());
+  const record::Record& record = view.records.front();
+  const std::string id = record.test_id(check);
+  return id.substr(0, id.size() - check.size() - 1 - record.device.size());
+}
+
+bool names_test_of(const Waiver& waiver, std::string_view prefix, Check check,
+                   const std::string& device) {
+  return core::glob_matches(waiver.test, fmt::format("{}{}.{}", prefix, name_of(check), device));
+}
+
+std::set<std::string> accepted_devices(const RunView& view) {
+  std::set<std::string> devices;
+  if (!view.baselines.present()) return devices;
+  for (const auto& [id, drivers] : view.baselines.manifest().devices) devices.insert(id);
+  return devices;
+}
+
+// Returns whether this run judged everything that the waiver can excuse: the waiver names this
+// plan, the whole plan was judged, and nothing is missing on any device or in any check that the
+// waiver names. Otherwise, the waiver may be needed elsewhere, such as on another machine.
+bool is_covered(const Waiver& waiver, const RunView& view, const std::vector<Finding>& findings) {
+  const std::string prefix = test_prefix(view);
+  if (view.request.part || !waiver.test.starts_with(prefix)) return false;
+  const bool incomplete = std::ranges::any_of(findings, [&](const Finding& finding) {
+    const bool lacks_data = finding.verdict == Verdict::skipped &&
+                            finding.reason.cause == record::Cause::not_supported &&
+                            !finding.reason.subject.empty();
+    return (finding.verdict == Verdict::cannot_judge || lacks_data) &&
+           (finding.device.empty() || core::glob_matches(waiver.device, finding.device));
+  });
+  if (incomplete) return false;
+  std::set<std::string> measured;
+  for (const record::Record& record : view.records) measured.insert(record.device);
+  std::set<std::string> devices = accepted_devices(view);
+  devices.insert(measured.begin(), measured.end());
+  record::Checks checks = checks_of_run(view.run);
+  checks.insert(view.checks.begin(), view.checks.end());
+  bool any = false;
+  for (const std::string& device : devices) {
+    if (!core::glob_matches(waiver.device, device)) continue;
+    for (const Check check : checks) {
+      if (!can_regress(view, check) || !names_test_of(waiver, prefix, check, device)) continue;
+      if (!measured.contains(device) || !view.checks.contains(check)) return false;
+      any = true;
+    }
+  }
+  return any;
+}
+
+// Returns whether the waiver names this plan, but matches no test of it on any known device.
 bool matches_no_test(const Waiver& waiver, const RunView& view) {
+  const std::string prefix = test_prefix(view);
+  if (!waiver.test.starts_with(prefix)) return false;
+  std::set<std::string> devices = accepted_devices(view);
+  for (const record::Record& record : view.records) devices.insert(record.device);
+  if (devices.empty()) return false;
+  devices.insert(waiver.device);  // it may be the id of a device of another machine
   const record::Checks checks = record::every_check();
-  const std::string image = view.plan_test_id(Check::image);
-  const std::string plan = image.substr(0, image.rfind('.') + 1);
-  return waiver.test.starts_with(plan) &&
-         std::ranges::none_of(view.records, [&](const record::Record& record) {
-           return std::ranges::any_of(checks, [&](Check check) {
-             return core::glob_matches(waiver.test, record.test_id(name_of(check)));
-           });
-         });
+  return std::ranges::none_of(devices, [&](const std::string& device) {
+    return std::ranges::any_of(
+        checks, [&](Check check) { return names_test_of(waiver, prefix, check, device); });
+  });
+}
+
+// Returns the plan that the waiver names without wildcards, such as "volume/quick", if neither
+// such a plan nor baselines for it exist. Otherwise, returns "".
+std::string unknown_plan_of(const Waiver& waiver, const RunView& view) {
+  const std::string& test = waiver.test;
+  const std::size_t end = test.find('.', test.find('.') + 1);
+  const bool is_literal = end != std::string::npos && test.find_first_of("*?") > end;
+  if (!is_literal || view.request.known_plans.empty()) return {};
+  if (test.starts_with(test_prefix(view))) return {};
+  std::string plan = test.substr(0, end);
+  plan[plan.find('.')] = '/';
+  const std::string file_plan = plan.substr(plan.find('/') + 1);  // a plan from a YAML file
+  const bool known = view.request.known_plans.contains(plan) || view.baselines.has_plan(plan) ||
+                     view.baselines.has_plan(file_plan);
+  return known ? std::string() : plan;
 }
 
 }  // namespace
@@ -100,33 +180,43 @@ void apply_expected_outcomes(const RunView& view, std::vector<Finding>& findings
 }
 
 void apply_waivers(const RunView& view, std::vector<Finding>& findings) {
+  std::vector<Finding> ineffective;
   for (const Waiver& waiver : view.baselines.waivers(view.today())) {
     bool used = false;
+    const bool expired = has_expired(waiver, view);
     for (Finding& finding : findings) {
       if (finding.verdict != Verdict::regression ||
           !covers(waiver, finding.device, finding.test, finding.configuration)) {
         continue;
       }
       used = true;
-      const bool expired = has_expired(waiver, view);
       finding.excuse = {.kind = expired ? Excuse::Kind::expired : Excuse::Kind::waived,
                         .reason = waiver.reason,
                         .expiry = waiver.expiry};
       if (!expired) finding.verdict = Verdict::waived;
     }
-    const auto advise = [&](Cause cause, Advice advice) {
-      findings.push_back(finding_about(
-          view, *view.checks.begin(), Verdict::advisory,
-          {.cause = cause,
-           .facts = {{"test", waiver.test}, {"device", waiver.device}, {"expiry", waiver.expiry}},
-           .detail = waiver.reason},
-          {advice}));
+    const auto report = [&](Cause cause, Advice advice = Advice::none) {
+      ineffective.push_back(finding_about(view, *view.checks.begin(), Verdict::advisory,
+                                          {.cause = cause,
+                                           .facts = {{"test", waiver.test},
+                                                     {"device", waiver.device},
+                                                     {"configuration", waiver.configuration},
+                                                     {"expiry", waiver.expiry}},
+                                           .detail = waiver.reason},
+                                          {advice}));
     };
-    if (!used && has_expired(waiver, view) && concerns_run(waiver, view)) {
-      advise(Cause::unused_waiver, Advice::remove_waiver);
+    if (const std::string plan = unknown_plan_of(waiver, view); !plan.empty()) {
+      report(Cause::waiver_of_no_plan);
+      ineffective.back().facts["plan"] = plan;
+    } else if (matches_no_test(waiver, view)) {
+      report(Cause::waiver_of_no_test);
+    } else if (!used &&
+               (expired ? concerns_run(waiver, view) : is_covered(waiver, view, findings))) {
+      report(Cause::unused_waiver, Advice::remove_waiver);
+      if (expired) ineffective.back().numbers["expired"] = 1;
     }
-    if (matches_no_test(waiver, view)) advise(Cause::waiver_of_no_test, Advice::none);
   }
+  std::ranges::move(ineffective, std::back_inserter(findings));
 }
 
 }  // namespace triptych::judge

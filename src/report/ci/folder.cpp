@@ -14,6 +14,7 @@
 #include "report/ci/markdown.hpp"
 #include "report/exports/verdict_json.hpp"
 #include "report/finding_groups.hpp"
+#include "report/overview.hpp"
 #include "report/words/cause.hpp"
 #include "report/words/finding.hpp"
 
@@ -64,12 +65,30 @@ std::string log_of(const judge::GateResult& result) {
   return text + fmt::format("\n{}\n", words::headline(result));
 }
 
+// Returns a line for each device with its driver version, and a line for each circumstance.
+std::string drivers_of(std::span<const judge::GateResult> results) {
+  const Overview all = overview(results);
+  std::map<std::string, std::string> by_device;
+  for (const TestedDriver& driver : all.drivers) {
+    for (const std::string& device : driver.devices) by_device[device] = driver.driver;
+  }
+  std::string text;
+  for (const auto& [device, driver] : by_device) {
+    text +=
+        fmt::format("{:<12} {}: {}\n", "driver", core::printable(device), core::printable(driver));
+  }
+  for (const std::string& each : all.circumstances) {
+    text += fmt::format("{:<12} {}\n", "note", core::printable(each));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::vector<std::string> write_folder(const std::filesystem::path& folder,
                                       std::span<const judge::GateResult> results,
                                       const FolderTexts& texts) {
-  std::string log;
+  std::string log = drivers_of(results);
   for (const judge::GateResult& result : results) {
     log += log_of(result);
     std::string name = result.plan + ".xml";

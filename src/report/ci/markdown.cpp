@@ -1,6 +1,7 @@
 #include "report/ci/markdown.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -16,6 +17,7 @@ constexpr std::size_t max_visible_causes = 10;
 constexpr std::size_t max_characters = 60000;
 constexpr std::size_t max_listed_command = 4000;
 constexpr std::size_t max_bounds_length = 8000;
+constexpr std::size_t max_drivers_length = 4000;
 
 std::string rows(const Overview& all) {
   std::string text = "| check | verdict | details |\n|---|---|---|\n";
@@ -25,6 +27,18 @@ std::string rows(const Overview& all) {
                         markdown_escaped(row.sentence));
   }
   return text;
+}
+
+// Lists the driver versions that were tested, in one paragraph.
+std::string drivers(const Overview& all) {
+  if (all.drivers.empty()) return {};
+  std::string text;
+  for (const TestedDriver& each : all.drivers) {
+    text += fmt::format("{}{}: {}", text.empty() ? "Drivers: " : "; ", each.driver,
+                        fmt::join(each.devices, ", "));
+    if (text.size() > max_drivers_length) break;
+  }
+  return markdown_escaped(text, 2 * max_drivers_length) + "\n\n";
 }
 
 std::string item(const Cause& cause) {
@@ -110,6 +124,10 @@ std::string markdown(std::span<const judge::GateResult> results) {
   for (const std::string& each : all.circumstances)
     text += "- **" + markdown_escaped(each) + "**\n";
   if (!all.circumstances.empty()) text += '\n';
+  text += drivers(all);
+  if (all.code == core::ExitCode::pass && !all.undecided.empty()) {
+    text += fmt::format("{}\n\n", markdown_escaped(words::pass_text(all)));
+  }
   std::vector<const Cause*> rest;
   for (std::size_t i = 0; i < all.open.size(); ++i) {
     if (i < max_visible_causes) {

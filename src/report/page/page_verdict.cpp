@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <map>
 #include <optional>
 #include <ranges>
@@ -63,8 +64,10 @@ std::string lead(const Overview& all) {
   }
   if (all.open.size() == 1) return "One cause:";
   if (!all.open.empty()) return fmt::format("{} causes, the worst first:", all.open.size());
-  return all.code == core::ExitCode::pass ? "Every requested check passed."
-                                          : "No check reached a verdict.";
+  if (all.code != core::ExitCode::pass) return "No check reached a verdict.";
+  std::string text = words::pass_text(all) + ".";
+  text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+  return text;
 }
 
 std::string cause_id(std::size_t number) {

@@ -1,6 +1,7 @@
 #include "report/screen/summary_screen.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -20,9 +21,12 @@ constexpr std::size_t max_lines = 40;
 constexpr std::size_t min_width = 40;
 constexpr std::size_t max_command_width = 600;
 constexpr std::size_t max_message_lines = 3;  // lines
+constexpr std::size_t max_meaning_lines = 2;  // lines
 constexpr std::size_t max_waived = 3;
 constexpr std::size_t max_circumstances = 5;
-constexpr std::size_t max_circumstance_lines = 2;  // lines
+constexpr std::size_t max_circumstance_lines = 2;      // for each note
+constexpr std::size_t max_lines_of_circumstances = 8;  // for all notes
+constexpr std::size_t max_drivers = 3;
 
 std::size_t width_of(std::string_view text) {
   return static_cast<std::size_t>(std::ranges::count_if(
@@ -74,7 +78,11 @@ class Screen {
     const std::vector<std::string> next = words::next_steps(all, options_.store_option);
     for (const std::string& each : next) add("  " + core::printable(each));
     if (!next.empty()) add("");
-    add(fmt::format("  exit {}", words::meaning_of(all.code)));
+    std::vector<std::string> meaning;
+    append_wrapped(
+        meaning, core::printable("exit " + words::meaning_of(all), max_meaning_lines * width_), "");
+    meaning.front().erase(0, 2);
+    for (const std::string& line : meaning) add(line);
     return text_;
   }
 
@@ -98,8 +106,21 @@ class Screen {
     const std::size_t used = width_of(left) + width_of(right);
     add(left + std::string(used + 3 < width_ ? width_ - used : 3, ' ') +
         coloured(right, verdict_of(all.code)));
+    drivers(all);
     if (!all.open.empty()) add(worst_of(all.open.front()));
     add("");
+  }
+
+  // Adds a line for each driver version that was tested.
+  void drivers(const Overview& all) {
+    const bool fits = all.drivers.size() <= max_drivers;
+    const std::size_t shown = fits ? all.drivers.size() : max_drivers - 1;
+    for (std::size_t i = 0; i < shown; ++i) {
+      const TestedDriver& each = all.drivers[i];
+      const std::string line = fmt::format("{}: {}", each.driver, fmt::join(each.devices, ", "));
+      add("  " + core::printable(line, width_ - 2));
+    }
+    if (!fits) add(fmt::format("  {} more driver versions", all.drivers.size() - shown));
   }
 
   // Describes a cause in one line: "✗ image on gl:x: crashed: …".
@@ -121,13 +142,16 @@ class Screen {
 
   // Adds the circumstances (report/circumstances.hpp). They are shown even for a pass.
   void circumstances(const Overview& all) {
-    const std::size_t shown = std::min(max_circumstances, all.circumstances.size());
-    for (std::size_t i = 0; i < shown; ++i) {
+    std::size_t shown = 0;
+    std::size_t used = 0;
+    for (const std::string& each : all.circumstances) {
       std::vector<std::string> lines;
-      append_wrapped(
-          lines, core::printable(all.circumstances[i], max_circumstance_lines * (width_ - 6)), "");
+      append_wrapped(lines, core::printable(each, max_circumstance_lines * (width_ - 6)), "");
+      used += lines.size();
+      if (shown == max_circumstances || used > max_lines_of_circumstances) break;
       lines.front().replace(0, 3, "  !");
       for (const std::string& line : lines) add(line);
+      ++shown;
     }
     if (shown < all.circumstances.size()) {
       add(fmt::format("  ! {} more notes are in the HTML report (--out)",
@@ -142,8 +166,7 @@ class Screen {
     std::size_t shown = 0;
     for (const Cause& cause : all.remarks) {
       if (cause.group.first->verdict != Verdict::waived || ++shown > max_waived) continue;
-      add(core::printable(fmt::format("  – {}: {}", words::location(cause), words::found(cause)),
-                          width_));
+      add(core::printable("  – " + words::waived_text(cause), width_));
     }
     if (shown > max_waived) add(fmt::format("  – {} more causes are waived", shown - max_waived));
     if (shown > 0) add("");
@@ -152,7 +175,7 @@ class Screen {
   // Adds as many causes as fit on the screen.
   void causes(const Overview& all, std::span<const std::string> files) {
     // The number of lines that follow the causes.
-    const std::size_t below = files.empty() ? 5 : 7;
+    const std::size_t below = files.empty() ? 6 : 8;
     std::size_t shown = 0;
     for (const Cause& cause : all.open) {
       const std::vector<std::string> lines = lines_of(cause);

@@ -21,6 +21,45 @@ std::string with_verb(const std::vector<std::string>& devices, std::string_view 
   return fmt::format("{} {}", fmt::join(devices, ", "), devices.size() == 1 ? one : many);
 }
 
+// Returns the plans in which values differ from stored values, as arguments of `triptych accept`:
+// " volume/quick particles/quick".
+std::string plans_with_changes(const Overview& all) {
+  std::set<std::string> plans;
+  for (const Cause& cause : all.open) {
+    const Finding& first = *cause.group.first;
+    const bool stored =
+        first.against == judge::Against::baseline || first.against == judge::Against::other_devices;
+    if (first.verdict != judge::Verdict::regression || !stored) continue;
+    const judge::GateResult& result = *cause.result;
+    plans.insert(core::shell_quoted(result.argument.empty() ? result.plan : result.argument));
+  }
+  std::string text;
+  for (const std::string& plan : plans) text += " " + plan;
+  return text;
+}
+
+// Returns the name of the file to which the user can add a waiver.
+std::string waivers_file(const Overview& all) {
+  const std::string& file = all.open.front().result->waivers_file;
+  return file.empty() ? "baselines/waivers.json" : core::shell_quoted(file);
+}
+
+// Lists checks with the devices on which they reached no verdict: "statistics on gl:x; timing". The
+// devices are left out if the check reached no verdict on any device.
+std::string undecided_text(const Overview& all) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (const auto& [check, devices] : all.undecided) {
+    text += fmt::format("{}{}", text.empty() ? "" : "; ", judge::name_of(check));
+    if (devices.size() > most) {
+      text += fmt::format(" on {} devices", devices.size());
+    } else if (!devices.empty()) {
+      text += fmt::format(" on {}", fmt::join(devices, ", "));
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string subject(const FindingGroup& group) {
@@ -79,6 +118,9 @@ std::string attribution(const FindingGroup& group) {
       return fmt::format(
           "the driver is at fault, because {} correct when the baselines were accepted",
           with_verb(attribution.devices, "uses the same API and was", "use the same API and were"));
+    case FaultAttribution::Kind::driver_version:
+      return "the driver is at fault, because another version of it was correct when the baselines "
+             "were accepted";
     case FaultAttribution::Kind::not_the_driver:
       return fmt::format("the driver is not at fault, because {} wrong, too",
                          with_verb(attribution.devices, "is", "are"));
@@ -94,35 +136,41 @@ std::string text_of(const Cause& cause) {
   return text;
 }
 
+std::string waived_text(const Cause& cause) {
+  const FindingGroup& group = cause.group;
+  const Finding& worst = group.worst == nullptr ? *group.first : *group.worst;
+  return fmt::format("{}{}: {}", excuse(worst), location(cause),
+                     text_of(static_cast<const judge::Observation&>(worst)));
+}
+
 std::vector<std::string> next_steps(const Overview& all, std::string_view store_option) {
   const auto regression = [](const Cause& cause) {
     return cause.group.first->verdict == judge::Verdict::regression;
   };
-  const auto against_stored = [&](const Cause& cause) {
-    const judge::Against against = cause.group.first->against;
-    return regression(cause) &&
-           (against == judge::Against::baseline || against == judge::Against::other_devices);
-  };
   if (std::ranges::none_of(all.open, regression)) return {};
-  std::set<std::string> plans;
-  for (const Cause& cause : all.open) {
-    const judge::GateResult& result = *cause.result;
-    if (against_stored(cause)) {
-      plans.insert(core::shell_quoted(result.argument.empty() ? result.plan : result.argument));
-    }
+  const bool injected = std::ranges::any_of(
+      all.open, [](const Cause& cause) { return !cause.result->injected.empty(); });
+  std::vector<std::string> steps;
+  // Accepting a run cannot correct an image, and would also accept its wrong images, so it is not
+  // suggested if any frame is wrong.
+  if (std::ranges::any_of(all.open, [&](const Cause& cause) {
+        return regression(cause) && is_reproduced_by_render(*cause.group.first);
+      })) {
+    steps.emplace_back("for a bug report, replace `render` by `reduce` in the command above");
+  } else if (const std::string plans = plans_with_changes(all); !plans.empty() && !injected) {
+    steps.push_back(fmt::format("to accept an intended change: triptych accept{}{} --reason TEXT",
+                                plans, store_option));
   }
-  const bool drawn = std::ranges::any_of(all.open, [](const Cause& cause) {
-    return command_of(*cause.group.first, *cause.result).find("triptych render ") !=
-           std::string::npos;
-  });
-  std::string first = "next: see docs/gate.md";
-  if (!plans.empty()) {
-    first = fmt::format("next: to accept an intended change: triptych accept {}{} --reason TEXT",
-                        fmt::join(plans, " "), store_option);
-  } else if (drawn) {
-    first = "next: for a bug report, replace `render` by `reduce` in the command above";
+  if (injected) {
+    steps.emplace_back("to test the driver, measure again without --inject");
+  } else {
+    steps.emplace_back("to find the commit: gate --bisect (docs/gate.md)");
+    steps.push_back(fmt::format("to excuse a known bug: {} (docs/validate.md)", waivers_file(all)));
   }
-  return {first, "      to find the commit: gate --bisect; to excuse a known bug: waivers.json"};
+  for (std::string& each : steps) {
+    each.insert(0, &each == steps.data() ? "next: " : "      ");
+  }
+  return steps;
 }
 
 std::string_view verdict_word(core::ExitCode code) {
@@ -136,10 +184,16 @@ std::string_view verdict_word(core::ExitCode code) {
   }
 }
 
-std::string_view meaning_of(core::ExitCode code) {
-  switch (code) {
+std::string pass_text(const Overview& all) {
+  if (all.undecided.empty()) return "every requested check passed";
+  return fmt::format("every check that reached a verdict passed; no verdict: {}",
+                     undecided_text(all));
+}
+
+std::string meaning_of(const Overview& all) {
+  switch (all.code) {
     case core::ExitCode::pass:
-      return "0: every requested check passed";
+      return "0: " + pass_text(all);
     case core::ExitCode::regression:
       return "1: something is wrong or has changed";
     default:

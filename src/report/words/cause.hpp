@@ -27,14 +27,20 @@ namespace triptych::report::words {
 // Returns found(), attribution() and the advice in one line.
 [[nodiscard]] std::string text_of(const Cause& cause);
 
-// Returns two lines that suggest the next commands after a regression, or no lines if there is no
-// regression. `store_option` is " --store FILE", or empty for the default store.
+// Describes a group of waived findings: the date and the reason of the waiver, the place, and the
+// worst finding.
+[[nodiscard]] std::string waived_text(const Cause& cause);
+
+// Returns at most three lines that suggest the next commands after a regression, or no lines if
+// there is no regression. `store_option` is " --store FILE", or empty for the default store.
 [[nodiscard]] std::vector<std::string> next_steps(const Overview& all,
                                                   std::string_view store_option);
 
 // Returns "FAIL", "PASS" or "CANNOT JUDGE".
 [[nodiscard]] std::string_view verdict_word(core::ExitCode code);
-// Explains an exit code: "1: something is wrong or has changed".
-[[nodiscard]] std::string_view meaning_of(core::ExitCode code);
+// Explains a pass: "every requested check passed", or which checks reached no verdict.
+[[nodiscard]] std::string pass_text(const Overview& all);
+// Explains the exit code: "1: something is wrong or has changed".
+[[nodiscard]] std::string meaning_of(const Overview& all);
 
 }  // namespace triptych::report::words

@@ -21,30 +21,6 @@ using judge::GateResult;
 using judge::RetryResult;
 using judge::Verdict;
 
-// Returns a prefix for the sentence about a finding, such as "known failure: " or "unexpectedly
-// skipped: ". The prefix depends on the waivers and on the file of expectations (the list of known
-// failures); it is empty if they do not concern the finding.
-std::string excuse(const Finding& finding) {
-  const Excuse& excuse = finding.excuse;
-  switch (excuse.kind) {
-    case Excuse::Kind::waived:
-      return fmt::format("waived until {} ({}): ", excuse.expiry, excuse.reason);
-    case Excuse::Kind::known:
-      return excuse.outcome == ExpectedOutcome::fail
-                 ? "known failure: "
-                 : fmt::format("known {}: ", judge::name_of(excuse.outcome));
-    case Excuse::Kind::unexpected:
-      return finding.verdict == Verdict::improved
-                 ? fmt::format("passes, although the expectations file lists it as '{}' ({}): ",
-                               judge::name_of(excuse.outcome), excuse.reason)
-                 : "unexpectedly skipped: ";
-    case Excuse::Kind::expired:
-    case Excuse::Kind::nothing:
-      break;
-  }
-  return {};
-}
-
 std::string drawn_again(const Finding& finding) {
   switch (finding.retry_result) {
     case RetryResult::not_drawn:
@@ -101,6 +77,27 @@ std::string tally(const GateResult& result) {
 
 }  // namespace
 
+std::string excuse(const Finding& finding) {
+  const Excuse& excuse = finding.excuse;
+  switch (excuse.kind) {
+    case Excuse::Kind::waived:
+      return fmt::format("waived until {} ({}): ", excuse.expiry, excuse.reason);
+    case Excuse::Kind::known:
+      return excuse.outcome == ExpectedOutcome::fail
+                 ? "known failure: "
+                 : fmt::format("known {}: ", judge::name_of(excuse.outcome));
+    case Excuse::Kind::unexpected:
+      return finding.verdict == Verdict::improved
+                 ? fmt::format("passes, although the expectations file lists it as '{}' ({}): ",
+                               judge::name_of(excuse.outcome), excuse.reason)
+                 : "unexpectedly skipped: ";
+    case Excuse::Kind::expired:
+    case Excuse::Kind::nothing:
+      break;
+  }
+  return {};
+}
+
 std::string found(const Finding& finding) {
   std::string text = drawn_again(finding) + excuse(finding);
   if (!finding.subject.empty()) text += finding.subject + ": ";
@@ -128,6 +125,11 @@ std::string advice(const Finding& finding) {
       break;
     case Advice::accept:
       return "accept the run with " + command;
+    case Advice::accept_or_compare:
+      return fmt::format(
+          "accept this version with {}, or compare two versions directly with gate --base "
+          "(docs/gate.md)",
+          command);
     case Advice::run_again:
       return "run the plan again";
     case Advice::resume:
@@ -157,6 +159,13 @@ std::string advice(const Finding& finding) {
       return "remove the waiver";
   }
   return {};
+}
+
+std::string driver_text(const judge::TestedDevice& device) {
+  if (device.driver.empty() || device.driver_version.empty()) {
+    return device.driver + device.driver_version;
+  }
+  return fmt::format("{} {}", device.driver, device.driver_version);
 }
 
 std::string text_of(const Finding& finding) {

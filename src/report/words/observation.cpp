@@ -121,6 +121,18 @@ std::string no_required_device(const Observation& what) {
   return what.reason.cause == record::Cause::none ? text : with_detail(text, text_of(what.reason));
 }
 
+std::string unused_waiver(const Observation& what) {
+  std::string text = fmt::format("the waiver for {} on {}", what.fact("test"), what.fact("device"));
+  if (const std::string& some = what.fact("configuration"); !some.empty() && some != "*") {
+    text += fmt::format(" in {}", some);
+  }
+  if (what.numbers.contains("expired")) {
+    return text + fmt::format(" expired on {} and no longer excuses anything ({})",
+                              what.fact("expiry"), what.detail);
+  }
+  return text + fmt::format(" excuses nothing in this run ({})", what.detail);
+}
+
 std::string sentence_of(const Observation& what) {
   switch (what.cause) {
     case Cause::none:
@@ -188,9 +200,12 @@ std::string sentence_of(const Observation& what) {
     case Cause::nothing_decided:
       return "no check reached a verdict for this device: there were only advisories and skips";
     case Cause::unused_waiver:
+      return unused_waiver(what);
+    case Cause::waiver_of_no_plan:
       return fmt::format(
-          "the waiver for {} on {} expired on {} and no longer excuses anything ({})",
-          what.fact("test"), what.fact("device"), what.fact("expiry"), what.detail);
+          "the waiver for {} names the plan {}, which does not exist; a test id has the form "
+          "SUITE.PLAN.CHECK.DEVICE",
+          what.fact("test"), what.fact("plan"));
     case Cause::waiver_of_no_test:
       return fmt::format(
           "the waiver for {} matches no test; a test id has the form SUITE.PLAN.CHECK.DEVICE; to "

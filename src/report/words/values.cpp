@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "judge/correlation/line.hpp"
+#include "record/short_name.hpp"
 #include "report/words/causes.hpp"
 #include "report/words/finding.hpp"
 
@@ -136,16 +137,26 @@ std::string other_driver_statistics(const Observation& what) {
 }
 
 std::string other_counter(const Observation& what) {
-  std::string text = fmt::format(
-      "cost is not judged, because the counts are not comparable: driver version {}, counted by "
-      "{}; stored: driver version {}, counted by {}",
-      what.fact("driver_version"), what.fact("counted_by"), what.fact("other_version"),
-      what.fact("other"));
-  if (what.numbers.contains("median_ratio")) {
-    text += fmt::format("; the median change over {} is {}",
-                        counted(what.number("configurations"), "configuration", "configurations"),
-                        percent(what.number("median_ratio")));
+  const bool other_version = what.fact("driver_version") != what.fact("other_version");
+  const bool other_emulator = what.fact("counted_by") != what.fact("other");
+  std::string stored;
+  if (other_version) stored = fmt::format("driver version {}", what.fact("other_version"));
+  if (other_emulator) {
+    stored += fmt::format("{}counted by {}", stored.empty() ? "" : ", ", what.fact("other"));
   }
+  std::string text;
+  if (what.numbers.contains("median_ratio")) {
+    text = fmt::format("median change {}, largest {} in {}, over {} (stored: {}); ",
+                       percent(what.number("median_ratio")), percent(what.number("worst_ratio")),
+                       record::short_name(what.fact("configuration")),
+                       counted(what.number("configurations"), "configuration", "configurations"),
+                       stored);
+    stored.clear();
+  }
+  text += fmt::format("not judged, because no cost is stored for driver version {}",
+                      what.fact("driver_version"));
+  if (other_emulator) text += fmt::format(", counted by {}", what.fact("counted_by"));
+  if (!stored.empty()) text += fmt::format(" (stored: {})", stored);
   return text;
 }
 

@@ -194,44 +194,75 @@ TEST_F(CostGateTest, PreparationCostIsShown) {
 }
 
 // The driver version of the device differs from the accepted one, so the changes in cost are no
-// regressions. One advisory summarizes the changes in all configurations.
-TEST_F(CostGateTest, AnotherDriverVersionIsAdvice) {
+// regressions, but they must not pass either. One finding summarizes the changes in all
+// configurations. The median alone would hide that one configuration became slower.
+TEST_F(CostGateTest, AnotherDriverVersionCannotBeJudged) {
   accept_first(counted());
   driver_versions_["vulkan:lavapipe"] = "23.0";
   add_run("b", counted([](record::Record& record) {
-            if (record.device == "vulkan:lavapipe") record.cost["device_code"] += 200'000;
+            if (record.device != "vulkan:lavapipe") return;
+            record.cost["device_code"] -= 200'000;
+            if (record.configuration == plain_) record.cost["device_code"] += 800'000;
           }));
-  const auto advice = with(gate("b"), Verdict::advisory);
-  ASSERT_EQ(advice.size(), 1U) << text(gate("b"));
-  EXPECT_EQ(advice[0].cause, Cause::other_counter);
-  EXPECT_EQ(advice[0].fact("driver_version"), "23.0");
-  EXPECT_EQ(advice[0].fact("other_version"), "22.3.6");
-  EXPECT_EQ(advice[0].number("configurations"), 4);
-  EXPECT_NEAR(advice[0].number("median_ratio"), 1.1, 1e-9);
-  EXPECT_TRUE(with(gate("b"), Verdict::regression).empty());
+  const GateResult result = gate("b");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge) << text(result);
+  const auto unjudged = with(result, Verdict::cannot_judge);
+  ASSERT_EQ(unjudged.size(), 1U) << text(result);
+  EXPECT_EQ(unjudged[0].cause, Cause::other_counter);
+  EXPECT_EQ(unjudged[0].fact("driver_version"), "23.0");
+  EXPECT_EQ(unjudged[0].fact("other_version"), "22.3.6");
+  EXPECT_EQ(unjudged[0].number("configurations"), 4);
+  EXPECT_NEAR(unjudged[0].number("median_ratio"), 0.9, 1e-9);
+  EXPECT_NEAR(unjudged[0].number("worst_ratio"), 1.3, 1e-9);
+  EXPECT_EQ(unjudged[0].fact("configuration"), plain_);
+  EXPECT_EQ(unjudged[0].advice.advice, Advice::accept_or_compare);
+  EXPECT_EQ(unjudged[0].advice.command, "triptych accept volume/quick --reason TEXT");
+  EXPECT_TRUE(with(result, Verdict::regression).empty());
 }
 
-TEST_F(CostGateTest, AnotherEmulatorIsAdvice) {
+// The plan also has checks that reach a verdict. They must not hide that the cost was not judged.
+TEST_F(CostGateTest, AnotherDriverVersionDoesNotPassBecauseOfOtherChecks) {
+  accept_first(counted());
+  driver_versions_["vulkan:lavapipe"] = "23.0";
+  add_run("b", counted());
+  request_.checks = {Check::image, Check::memory, Check::cost};
+  EXPECT_EQ(gate("b").exit_code(), ExitCode::cannot_judge) << text(gate("b"));
+}
+
+// CTest skips a test of a single check that has no verdict.
+TEST_F(CostGateTest, AnotherDriverVersionIsAnAdvisoryInCTest) {
+  accept_first(counted());
+  driver_versions_["vulkan:lavapipe"] = "23.0";
+  add_run("b", counted());
+  request_.decides_each_device = false;
+  request_.devices = {"vulkan:lavapipe"};
+  const auto findings = gate("b").findings;
+  ASSERT_EQ(findings.size(), 1U) << text(gate("b"));
+  EXPECT_EQ(findings[0].verdict, Verdict::advisory);
+}
+
+TEST_F(CostGateTest, AnotherEmulatorCannotBeJudged) {
   const GateResult result = judge(counted([](record::Record& record) {
     record.counted_by = "an emulator 2";
     record.cost["device_code"] *= 2;
   }));
-  const auto advice = with(result, Verdict::advisory);
-  ASSERT_EQ(advice.size(), 3U) << text(result);
-  EXPECT_EQ(advice[0].fact("counted_by"), "an emulator 2");
-  EXPECT_EQ(advice[0].fact("other"), "an emulator 1");
-  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);  // no other check was requested
+  const auto unjudged = with(result, Verdict::cannot_judge);
+  ASSERT_EQ(unjudged.size(), 3U) << text(result);
+  EXPECT_EQ(unjudged[0].fact("counted_by"), "an emulator 2");
+  EXPECT_EQ(unjudged[0].fact("other"), "an emulator 1");
+  EXPECT_EQ(result.exit_code(), ExitCode::cannot_judge);
 }
 
-TEST_F(CostGateTest, ADeviceWithoutStoredCostIsAdvice) {
+TEST_F(CostGateTest, ADeviceWithoutStoredCostCannotBeJudged) {
   accept_first([](record::Record& record, core::Image& image) {
     if (record.device != "opencl:pocl") counted()(record, image);
   });
   add_run("b", counted());
-  const auto advice = with(gate("b"), Verdict::advisory);
-  ASSERT_EQ(advice.size(), 1U) << text(gate("b"));
-  EXPECT_EQ(advice[0].device, "opencl:pocl");
-  EXPECT_EQ(advice[0].cause, Cause::no_stored_device);
+  const auto unjudged = with(gate("b"), Verdict::cannot_judge);
+  ASSERT_EQ(unjudged.size(), 1U) << text(gate("b"));
+  EXPECT_EQ(unjudged[0].device, "opencl:pocl");
+  EXPECT_EQ(unjudged[0].cause, Cause::no_stored_device);
+  EXPECT_EQ(unjudged[0].advice.advice, Advice::accept_or_compare);
 }
 
 TEST_F(CostGateTest, AConfigurationThatAnAcceptedDriverLacksCannotBeJudged) {

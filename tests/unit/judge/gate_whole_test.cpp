@@ -92,6 +92,58 @@ TEST_F(GateTest, ADeviceWithoutAVerdictIsReported) {
   EXPECT_EQ(open[0].advice.command, "triptych accept volume/quick --reason TEXT");
 }
 
+// The gate passes, but it must not claim that every requested check passed.
+TEST_F(GateTest, ChecksWithoutAVerdictAreListed) {
+  accept_first();
+  add_run("same");
+  request_.checks = {Check::image, Check::statistics, Check::memory};
+  EXPECT_TRUE(gate("same").undecided_checks().empty());
+  driver_versions_["vulkan:lavapipe"] = "99";
+  add_run("new");
+  const GateResult result = gate("new");
+  EXPECT_EQ(result.exit_code(), ExitCode::pass) << text(result);
+  const std::map<Check, std::set<std::string>> undecided{{Check::statistics, {"vulkan:lavapipe"}}};
+  EXPECT_EQ(result.undecided_checks(), undecided);
+  request_.devices = {"vulkan:lavapipe"};
+  const std::map<Check, std::set<std::string>> nowhere{{Check::statistics, {}}};
+  EXPECT_EQ(gate("new").undecided_checks(), nowhere);
+}
+
+TEST_F(GateTest, DriversThatWereNeverAcceptedAreMarked) {
+  accept_first();
+  driver_versions_["vulkan:lavapipe"] = "99";
+  add_run("b");
+  const auto tested = gate("b").tested;
+  ASSERT_EQ(tested.size(), 3U);
+  EXPECT_EQ(tested.at("vulkan:lavapipe").driver_version, "99");
+  EXPECT_FALSE(tested.at("vulkan:lavapipe").accepted);
+  EXPECT_TRUE(tested.at("opencl:pocl").accepted);
+}
+
+// The crashes explain why nothing was measured. Skips do not.
+TEST_F(GateTest, NothingMeasuredIsNotReportedTogetherWithCrashes) {
+  accept_first();
+  const auto all_end = [](record::Outcome outcome) {
+    return [outcome](record::Record& record, core::Image&) { record.outcome = outcome; };
+  };
+  add_run("crashed", all_end(record::Outcome::crashed));
+  EXPECT_EQ(with(gate("crashed"), Cause::nothing_measured).size(), 0U) << text(gate("crashed"));
+  EXPECT_EQ(gate("crashed").exit_code(), ExitCode::regression);
+  add_run("skipped", all_end(record::Outcome::skipped));
+  EXPECT_EQ(with(gate("skipped"), Cause::nothing_measured).size(), 1U) << text(gate("skipped"));
+  write_waivers("2027-01-01", "*:*");
+  request_.checks = {Check::image};
+  EXPECT_EQ(gate("crashed").exit_code(), ExitCode::cannot_judge)
+      << "a run without measurements must not pass because of waivers: " << text(gate("crashed"));
+}
+
+TEST_F(GateTest, AnIncompleteRunNamesTheCommandThatFinishesIt) {
+  request_.resume_command = "triptych validate --resume";
+  const GateResult result = gate("");
+  ASSERT_EQ(with(result, Cause::no_run).size(), 1U);
+  EXPECT_EQ(with(result, Cause::no_run)[0].advice.command, "triptych validate --resume");
+}
+
 TEST_F(GateTest, MissingRecordsAreReported) {
   add_run("a");
   (void)accept_run("a");

@@ -79,6 +79,66 @@ TEST_F(GateTest, AWaiverThatMatchesNothingIsReported) {
   }
 }
 
+TEST_F(GateTest, AWaiverOfAPlanThatDoesNotExistIsReported) {
+  accept_first();
+  request_.known_plans = {"volume/quick", "volume/stress"};
+  for (const auto& [test, count] : {std::pair("volume.quik.image.*", 1U),
+                                    {"volume.stress.image.*", 0U},
+                                    {"volume.quick.image.*", 0U},
+                                    {"*.quik.image.*", 0U}}) {
+    write_waivers("2027-01-01", "vulkan:*", "*", test);
+    const auto found = with(gate("accepted"), Cause::waiver_of_no_plan);
+    ASSERT_EQ(found.size(), count) << test;
+    if (count == 1) {
+      EXPECT_EQ(found[0].fact("plan"), "volume/quik");
+    }
+  }
+  request_.known_plans.clear();
+  write_waivers("2027-01-01", "vulkan:*", "*", "volume.quik.image.*");
+  EXPECT_EQ(with(gate("accepted"), Cause::waiver_of_no_plan).size(), 0U);
+}
+
+// The fault is gone, or a pattern has a typing error.
+TEST_F(GateTest, AWaiverThatExcusesNothingIsReported) {
+  accept_first();
+  add_run("wrong", wrong_image_on("vulkan:lavapipe"));
+  write_waivers("2027-01-01");
+  EXPECT_EQ(with(gate("wrong"), Cause::unused_waiver).size(), 0U) << text(gate("wrong"));
+  const auto unused = with(gate("accepted"), Cause::unused_waiver);
+  ASSERT_EQ(unused.size(), 1U) << text(gate("accepted"));
+  EXPECT_EQ(unused[0].fact("test"), "volume.quick.image.*");
+  EXPECT_EQ(unused[0].number("expired"), 0);
+  write_waivers("2027-01-01", "vulkan:*", "*", "volume.quick.*");
+  EXPECT_EQ(with(gate("accepted"), Cause::unused_waiver).size(), 1U) << "times have no verdict";
+  write_waivers("2027-01-01", "vulkan:*", "*", "volume.quick.timing.*");
+  EXPECT_EQ(with(gate("accepted"), Cause::unused_waiver).size(), 0U);
+  write_waivers("2027-01-01", "vulkan:*", "*technique=racyast*");
+  EXPECT_EQ(with(gate("wrong"), Cause::unused_waiver).size(), 1U) << text(gate("wrong"));
+}
+
+// A waiver may still be needed if the run does not cover everything that the waiver names.
+TEST_F(GateTest, AWaiverThatMayBeNeededElsewhereIsNotReported) {
+  accept_first();
+  const auto unused = [&] { return with(gate("accepted"), Cause::unused_waiver).size(); };
+  for (const auto& [device, test] : {std::pair("metal:*", "volume.quick.image.*"),
+                                     {"vulkan:*", "volume.stress.image.*"},
+                                     {"vulkan:*", "*.image.*"}}) {
+    write_waivers("2027-01-01", device, "*", test);
+    EXPECT_EQ(unused(), 0U) << device << ' ' << test;
+  }
+  write_waivers("2027-01-01", "*:*");
+  EXPECT_EQ(unused(), 1U);
+  request_.devices = {"vulkan:*"};
+  EXPECT_EQ(unused(), 0U) << "the other accepted devices were not judged";
+  request_.devices.clear();
+  request_.part = true;
+  EXPECT_EQ(unused(), 0U) << "only a part of the plan was judged";
+  request_.part = false;
+  request_.checks = {Check::image};
+  write_waivers("2027-01-01", "vulkan:*", "*", "volume.quick.*");
+  EXPECT_EQ(unused(), 0U) << "not all checks were judged";
+}
+
 TEST_F(GateTest, AnExpiredWaiverWithoutUseIsReported) {
   add_run("a");
   (void)accept_run("a");
@@ -87,6 +147,7 @@ TEST_F(GateTest, AnExpiredWaiverWithoutUseIsReported) {
   EXPECT_EQ(result.exit_code(), ExitCode::pass);
   ASSERT_EQ(with(result, Cause::unused_waiver).size(), 1U);
   EXPECT_EQ(with(result, Cause::unused_waiver)[0].fact("expiry"), "2025-01-01");
+  EXPECT_EQ(with(result, Cause::unused_waiver)[0].number("expired"), 1);
 }
 
 TEST_F(GateTest, AWaiverNeedsReasonAndDate) {

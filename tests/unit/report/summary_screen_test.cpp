@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "findings.hpp"
+#include "report/ci/markdown.hpp"
 #include "report/overview.hpp"
 #include "support/well_formed.hpp"
 
@@ -84,7 +85,7 @@ TEST(SummaryScreen, ListsWaivedFindings) {
   result.findings.back().numbers["ratio"] = 4e5;
   const std::string text = summary_screen(std::vector{result}, 3, {});
   EXPECT_THAT(text, HasSubstr("1 within their error bounds; 1 waived; error / bound ≤ 0.5\n"));
-  EXPECT_THAT(text, HasSubstr("\n  – gl:x, step=2: waived until 2027-01-01 (known): 3 of"));
+  EXPECT_THAT(text, HasSubstr("\n  – waived until 2027-01-01 (known): gl:x, step=2: 3 of"));
 }
 
 // These circumstances may make a pass worthless.
@@ -114,6 +115,81 @@ TEST(SummaryScreen, SuggestsToExcuseMissingDataUnlessTheyAreExcused) {
   result.data_excused = true;
   EXPECT_THAT(screen(), HasSubstr("missing data files: 1 (tooth.nrrd)"));
   EXPECT_THAT(screen(), Not(HasSubstr("--without-data")));
+}
+
+TEST(SummaryScreen, ListsTheDriversAndThoseThatWereNeverAccepted) {
+  GateResult result = passing();
+  result.tested = {
+      {"gl:x", {"x", "Mesa 1"}}, {"vulkan:x", {"x", "Mesa 1"}}, {"opencl:y", {"y", "3", false}}};
+  const std::string text = summary_screen(std::vector{result}, 3, {}, {.width = 120});
+  EXPECT_THAT(text, HasSubstr("\n  x Mesa 1: gl:x, vulkan:x\n  y 3: opencl:y\n"));
+  EXPECT_THAT(text, HasSubstr("not among the accepted ones: y 3 (opencl:y)\n"));
+  EXPECT_THAT(markdown(result), HasSubstr("x Mesa 1: gl:x, vulkan:x; y 3: opencl:y"));
+  for (int i = 0; i < 9; ++i) result.tested[fmt::format("gl:{}", i)] = {"z", fmt::to_string(i)};
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}),
+              HasSubstr("\n  9 more driver versions\n"));
+}
+
+// A plan of the same command may have accepted the driver.
+TEST(SummaryScreen, NamesThePlansForWhichADriverWasNotAccepted) {
+  GateResult known = passing();
+  known.tested = {{"gl:x", {"x", "1"}}};
+  GateResult unknown = passing();
+  unknown.plan = "volume/stress";
+  unknown.tested = {{"gl:x", {"x", "1", false}}};
+  EXPECT_THAT(summary_screen(std::vector{known, unknown}, 3, {}, {.width = 120}),
+              HasSubstr("x 1 in volume/stress (gl:x)\n"));
+}
+
+TEST(SummaryScreen, NamesBaselinesOutsideTheWorkingDirectory) {
+  GateResult result = passing();
+  result.other_baselines = "/usr/share/b";
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}, {.width = 120}),
+              HasSubstr("! compared with the baselines in /usr/share/b\n"));
+  result.lacks_own_baselines = true;
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}, {.width = 120}),
+              HasSubstr("in /usr/share/b, because the working directory has no folder"));
+}
+
+TEST(SummaryScreen, ListsWaiversWithoutEffect) {
+  GateResult result = passing();
+  add(result, Check::image, advisory, "", "",
+      {.cause = judge::Cause::unused_waiver,
+       .facts = {{"test", "volume.quick.image.*"}, {"device", "gl:*"}, {"configuration", "*"}},
+       .detail = "known"});
+  result.devices = {"gl:x"};
+  // The same waiver is reported for each plan.
+  const std::string text = summary_screen(std::vector{result, result}, 3, {}, {.width = 120});
+  EXPECT_THAT(text, HasSubstr("! the waiver for volume.quick.image.* on gl:* excuses nothing"));
+  EXPECT_EQ(text.find("excuses nothing"), text.rfind("excuses nothing"));
+}
+
+TEST(SummaryScreen, NamesChecksWithoutAVerdict) {
+  GateResult result = passing();
+  result.checks = {Check::image, Check::statistics};
+  add(result, Check::statistics, advisory, "gl:x", "");
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}, {.width = 120}),
+              HasSubstr("exit 0: every check that reached a verdict passed; no verdict: "
+                        "statistics\n"));
+  add(result, Check::statistics, pass, "gl:y", "step=1");
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}, {.width = 120}),
+              HasSubstr("; no verdict: statistics on gl:x\n"));
+  add(result, Check::statistics, pass, "gl:x", "step=1");
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}),
+              HasSubstr("exit 0: every requested check passed\n"));
+}
+
+// A device of one plan does not decide for the same device in another plan.
+TEST(SummaryScreen, NamesTheDevicesOfAPlanWithoutAVerdict) {
+  GateResult decided = passing();
+  decided.checks = {Check::image};
+  GateResult undecided = passing();
+  undecided.checks = {Check::image, Check::memory};
+  add(decided, Check::memory, pass, "gl:x", "step=1");
+  decided.checks.insert(Check::memory);
+  add(undecided, Check::memory, skipped, "gl:x", "step=1");
+  EXPECT_THAT(summary_screen(std::vector{decided, undecided}, 3, {}, {.width = 120}),
+              HasSubstr("; no verdict: memory on gl:x\n"));
 }
 
 TEST(SummaryScreen, StatesWhetherTimesDecided) {
@@ -215,6 +291,54 @@ TEST(SummaryScreen, SuggestsTheNextStep) {
   EXPECT_THAT(summary_screen(std::vector{counted}, 3, {}, {.store_option = " --store s.sqlite"}),
               HasSubstr("triptych accept volume/quick --store s.sqlite --reason TEXT\n"));
   EXPECT_THAT(summary_screen(std::vector{passing()}, 3, {}), Not(HasSubstr("next:")));
+}
+
+// A lower score, or a changed counter next to a wrong image, is a fault, not an intended change.
+TEST(SummaryScreen, DoesNotSuggestToAcceptWrongFramesOrInjectedFaults) {
+  GateResult both{.plan = "volume/quick", .run = "r", .findings = {}};
+  add(both, Check::counters, regression, "gl:x", "step=1", changed("samples"));
+  const std::vector<judge::Observation> faults{over_bound(3), crashed(11)};
+  for (const judge::Observation& fault : faults) {
+    GateResult wrong = both;
+    add(wrong, Check::image, regression, "gl:x", "step=2", fault);
+    const std::string text = summary_screen(std::vector{wrong}, 3, {});
+    EXPECT_THAT(text, HasSubstr("next: for a bug report, replace `render` by `reduce`"));
+    EXPECT_THAT(text, Not(HasSubstr("triptych accept")));
+  }
+  GateResult stress = both;
+  add(stress, Check::stress, regression, "gl:x", "step=2",
+      {.cause = judge::Cause::score, .against = judge::Against::baseline});
+  EXPECT_THAT(summary_screen(std::vector{stress}, 3, {}), Not(HasSubstr("triptych accept")));
+  both.injected = {{"slowdown:20", 4}};
+  const std::string text = summary_screen(std::vector{both}, 3, {});
+  EXPECT_THAT(text, HasSubstr("next: to test the driver, measure again without --inject\n"));
+  EXPECT_THAT(text, Not(HasSubstr("triptych accept")));
+  EXPECT_THAT(text, Not(HasSubstr("waivers.json")));
+}
+
+TEST(SummaryScreen, NamesTheFileForWaivers) {
+  GateResult result = failing();
+  result.waivers_file = "own/waivers.json";
+  EXPECT_THAT(summary_screen(std::vector{result}, 3, {}),
+              HasSubstr("to excuse a known bug: own/waivers.json (docs/validate.md)\n"));
+}
+
+// Everything that may be above and below the causes is shown at its longest.
+TEST(SummaryScreen, HasAtMostFortyLinesWithEveryKindOfNote) {
+  GateResult result{.plan = "volume/quick", .run = "r", .findings = {}};
+  for (const Check check : record::every_check()) {
+    for (int i = 0; i < 5; ++i) {
+      add(result, check, regression, fmt::format("gl:{}", i), "step=1", changed("samples"));
+    }
+  }
+  for (int i = 0; i < 9; ++i) {
+    add(result, Check::image, waived, fmt::format("vulkan:{}", i), "step=1", over_bound(1));
+    result.unusable.push_back(
+        {fmt::format("Vulkan {}", i), std::string(300, static_cast<char>('a' + i)), {}});
+    result.tested[fmt::format("gl:{}", i)] = {"driver", fmt::to_string(i)};
+  }
+  const std::string text = summary_screen(std::vector{result}, 3, std::vector<std::string>{"page"});
+  EXPECT_LE(std::ranges::count(text, '\n'), 40) << text;
 }
 
 // A single driver bug typically affects every plan.
