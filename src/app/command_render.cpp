@@ -11,7 +11,6 @@
 #include "app/one_frame.hpp"
 #include "app/one_pixel.hpp"
 #include "app/terminal.hpp"
-#include "core/json_text.hpp"
 #include "core/output_files.hpp"
 #include "core/temporary_folder.hpp"
 #include "measure/contract/dump.hpp"
@@ -32,6 +31,7 @@ struct RenderArguments {
   FrameArguments frame;
   std::optional<std::string> error;  // as typed by the user
   int limit_s = default_limit_s;
+  bool untimed = false;
   bool truth = false;
   bool describe = false;
   bool in_process = false;
@@ -66,8 +66,19 @@ struct Drawn {
   record::Record record;
 };
 
+// Returns the protocol of the paper without its wall-clock loop, because frame.json contains only
+// the times of single frames.
+measure::Protocol render_protocol(const RenderArguments& arguments) {
+  measure::Protocol protocol;
+  protocol.least_loop_ns = 0;
+  protocol.most_loop_frames = 1;
+  protocol.timed = !arguments.untimed;
+  protocol.statistics = protocol.timed;
+  return protocol;
+}
+
 std::string measure_in(const Drawing& drawing, const measure::Plan& plan,
-                       const measure::Protocol& protocol = {}) {
+                       const measure::Protocol& protocol) {
   const measure::RunResult result =
       measure::run_plan(plan, drawing.devices, drawing.suite, drawing.store,
                         {.protocol = protocol,
@@ -81,7 +92,7 @@ std::string measure_in(const Drawing& drawing, const measure::Plan& plan,
 }
 
 Drawn draw_one(const Drawing& drawing, const measure::Plan& plan) {
-  const std::string run = measure_in(drawing, plan);
+  const std::string run = measure_in(drawing, plan, render_protocol(drawing.arguments));
   return {run, drawing.store.records(run).at(0)};
 }
 
@@ -113,7 +124,7 @@ Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
   const measure::ErrorRequest request =
       measure::request_error(plan, drawing.suite, wanted, truths, [](const std::string&) {});
   if (!request.unreachable.empty()) throw core::NotSupported(request.unreachable.front());
-  const std::string run = measure_in(drawing, request.plan);
+  const std::string run = measure_in(drawing, request.plan, render_protocol(drawing.arguments));
   const std::vector<record::Record> records = drawing.store.records(run);
   const auto answers = measure::answer_error(records, drawing.suite, wanted, truths);
   if (answers.empty()) return {run, records.at(0)};
@@ -148,15 +159,27 @@ void prepare_process(const RenderArguments& arguments) {
   ::setenv("TRIPTYCH_DUMP", fs::absolute(arguments.dump).c_str(), 1);
 }
 
+// Prints the size of the image, the device and its driver, and the time of a frame if frames were
+// timed.
+void print_drawn(const record::Record& record, const record::Device& device,
+                 const core::Image& image) {
+  std::string time;
+  if (const auto summary = record::summarise(record.time_ns())) {
+    time = fmt::format(" in {:.3f} ms (median of {} frames, {} clock)", summary->median / 1e6,
+                       record.time_ns().size(), record.clock());
+  }
+  print_out("drew {}x{} with {} ({} {}){}\n", image.width, image.height, device.id, device.driver,
+            device.driver_version, time);
+}
+
 core::ExitCode write_results(const RenderArguments& arguments, measure::SuiteWithTruth& suite,
                              const record::Record& record, const record::Device& device,
                              const core::Image& image,
                              const std::function<judge::TruthPair(const record::Record&)>& truth) {
   const fs::path out(arguments.frame.out);
-  report::write_image_files(out, "image", image);
   const core::Json frame = report::frame_json(suite.describe(record.factors), record, device);
-  core::write_text(out / "frame.json", core::json_text(frame, 2) + "\n");
-  print_out("{}\n", (out / "image.exr").string());
+  for (const std::string& file : report::replace_frame(out, image, frame)) print_out("{}\n", file);
+  print_drawn(record, device, image);
   if (!arguments.truth) return core::ExitCode::pass;
   return compare_with_reference(image, truth(record), out);
 }
@@ -176,7 +199,6 @@ core::ExitCode render_in_process(const RenderArguments& arguments) {
         "several configurations; name a technique");
   }
   const fs::path out(arguments.frame.out);
-  report::remove_frame(out);
   if (!arguments.dump.empty()) measure::write_compile_script(arguments.dump);
   const auto faults = measure::parse_faults(arguments.frame.faults);
   std::optional<measure::PixelPlace> pixel;
@@ -200,6 +222,14 @@ core::ExitCode render_in_process(const RenderArguments& arguments) {
   return code == core::ExitCode::pass ? shown : code;
 }
 
+// Throws InputError for --untimed if the fastest of several frames is wanted.
+void require_times_if_compared(const RenderArguments& arguments, const measure::Plan& plan) {
+  if (!arguments.untimed || (!arguments.error && plan.automatic.empty())) return;
+  throw core::InputError(
+      "--error and technique=auto select the fastest frame, which needs frame times; remove "
+      "--untimed");
+}
+
 core::ExitCode render(const RenderArguments& arguments) {
   if (arguments.describe) return describe_data(make_registry(), arguments.frame);
   require_option(arguments.frame.device, "--device");
@@ -209,8 +239,7 @@ core::ExitCode render(const RenderArguments& arguments) {
   }
   const Registry registry = make_registry();
   const auto [suite, plan, device] = choose_frame(registry, arguments.frame);
-  const fs::path out(arguments.frame.out);
-  report::remove_frame(out);
+  require_times_if_compared(arguments, plan);
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "render.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);
@@ -239,6 +268,9 @@ void add_render_command(Commands& commands) {
       "fastest levels of the factors step, quadrature, ert, adapt and skip for which the error "
       "relative to the scene's limit image (the exact ray integral) is at most E");
   add_limit_option(command, arguments.limit_s, "the frame");
+  command.add_flag("--untimed", arguments.untimed,
+                   "Draw only one frame for the image and one for the counters, and omit frame "
+                   "times and driver statistics; this takes a fraction of the time");
   command.add_flag("--in-process", arguments.in_process,
                    "Draw only one frame, in this process, for debuggers and capture tools "
                    "(RenderDoc, apitrace, gfxreconstruct); objects and passes have debug names");

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <limits>
+#include <memory>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -112,6 +113,49 @@ void write_in_place(std::span<const std::byte> bytes, const std::filesystem::pat
   write_and_close(out, bytes, target);
 }
 
+// A complete file under a temporary name next to its target. finish() gives it the target's name.
+// Without finish(), the destructor removes it, and the target keeps its old content.
+class StagedFile {
+ public:
+  StagedFile(std::span<const std::byte> bytes, std::filesystem::path file)
+      : file_(std::move(file)) {
+    std::error_code none;
+    target_ = std::filesystem::is_symlink(file_, none)
+                  ? std::filesystem::weakly_canonical(file_, none)
+                  : file_;
+    const auto status = std::filesystem::status(target_, none);
+    if (std::filesystem::is_directory(status)) fail("cannot write", file_, EISDIR);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+      write_in_place(bytes, target_);
+      return;
+    }
+    // Each writer uses a temporary file with a unique name, so that two writers never write to the
+    // same file.
+    int fd = -1;
+    for (int attempt = 0; fd < 0 && (attempt == 0 || errno == EEXIST); ++attempt) {
+      temporary_ = target_;
+      temporary_ += fmt::format(".{}-{}.part", ::getpid(), attempt);
+      fd = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    }
+    Descriptor out(fd);
+    if (out.get() < 0) fail("cannot write", file_, errno);
+    guard_ = std::make_unique<UnfinishedFile>(temporary_);
+    write_and_close(out, bytes, file_);
+  }
+
+  void finish() {
+    if (!guard_) return;  // was written in place
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot write", file_, errno);
+    guard_->finished();
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  std::unique_ptr<UnfinishedFile> guard_;
+};
+
 }  // namespace
 
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
@@ -123,35 +167,18 @@ std::string read_text(const std::filesystem::path& file, std::size_t most) {
 }
 
 void write_file(std::span<const std::byte> bytes, const std::filesystem::path& file) {
-  std::error_code none;
-  const auto target = std::filesystem::is_symlink(file, none)
-                          ? std::filesystem::weakly_canonical(file, none)
-                          : file;
-  const auto status = std::filesystem::status(target, none);
-  if (std::filesystem::is_directory(status)) fail("cannot write", file, EISDIR);
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    write_in_place(bytes, target);
-    return;
-  }
-  // Each writer uses a temporary file with a unique name, so that two writers never write to the
-  // same file.
-  std::filesystem::path temporary;
-  int fd = -1;
-  for (int attempt = 0; fd < 0 && (attempt == 0 || errno == EEXIST); ++attempt) {
-    temporary = target;
-    temporary += fmt::format(".{}-{}.part", ::getpid(), attempt);
-    fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  }
-  Descriptor out(fd);
-  if (out.get() < 0) fail("cannot write", file, errno);
-  UnfinishedFile guard(temporary);
-  write_and_close(out, bytes, file);
-  if (::rename(temporary.c_str(), target.c_str()) != 0) fail("cannot write", file, errno);
-  guard.finished();
+  StagedFile(bytes, file).finish();
 }
 
 void write_file(std::string_view text, const std::filesystem::path& file) {
   write_file(std::as_bytes(std::span(text.data(), text.size())), file);
+}
+
+void write_files(const std::vector<FileContent>& files) {
+  std::vector<StagedFile> staged;
+  staged.reserve(files.size());
+  for (const auto& [file, bytes] : files) staged.emplace_back(bytes, file);
+  for (StagedFile& each : staged) each.finish();
 }
 
 }  // namespace triptych::core

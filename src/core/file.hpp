@@ -32,4 +32,14 @@ inline constexpr std::size_t most_json_bytes = std::size_t{64} << 20;
 void write_file(std::span<const std::byte> bytes, const std::filesystem::path& file);
 void write_file(std::string_view text, const std::filesystem::path& file);
 
+struct FileContent {
+  std::filesystem::path file;
+  std::span<const std::byte> bytes;
+};
+
+// Like write_file() for each of the files, but renames none of the temporary files before all of
+// them are complete. Therefore a full disk or an unwritable file leaves all previous files as they
+// were.
+void write_files(const std::vector<FileContent>& files);
+
 }  // namespace triptych::core

@@ -1,15 +1,29 @@
 #include "report/exports/frame_folder.hpp"
 
+#include <array>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 #include "accuracy/image_metrics.hpp"
+#include "core/file.hpp"
 #include "core/image_io.hpp"
 #include "core/json.hpp"
+#include "core/json_text.hpp"
 #include "judge/image_observation.hpp"
 #include "report/figures/share_of_bound.hpp"
 
 namespace triptych::report {
 namespace {
+
+constexpr std::array frame_files{"image.png", "image.exr", "frame.json"};
+
+// Removes the files that compare a frame with the reference renderer.
+void remove_comparison(const std::filesystem::path& folder) {
+  for (const char* file : {"truth.exr", "truth.png", "difference.png", "pixel.txt"}) {
+    std::filesystem::remove(folder / file);
+  }
+}
 
 core::Json clock_json(const std::vector<double>& samples) {
   return {{"samples", samples}};
@@ -35,10 +49,22 @@ core::Json frame_json(core::Json scene, const record::Record& record,
 }
 
 void remove_frame(const std::filesystem::path& folder) {
-  for (const char* file : {"image.exr", "image.png", "truth.exr", "truth.png", "difference.png",
-                           "frame.json", "pixel.txt"}) {
-    std::filesystem::remove(folder / file);
-  }
+  for (const char* file : frame_files) std::filesystem::remove(folder / file);
+  remove_comparison(folder);
+}
+
+std::vector<std::string> replace_frame(const std::filesystem::path& folder,
+                                       const core::Image& image, const core::Json& frame) {
+  const std::vector<std::byte> png = core::encode_png(image);
+  const std::vector<std::byte> exr = core::encode_exr(image);
+  const std::string json = core::json_text(frame, 2) + "\n";
+  core::write_files({{folder / "image.png", png},
+                     {folder / "image.exr", exr},
+                     {folder / "frame.json", std::as_bytes(std::span(json))}});
+  remove_comparison(folder);
+  std::vector<std::string> written;
+  for (const char* file : frame_files) written.push_back((folder / file).string());
+  return written;
 }
 
 void write_image_files(const std::filesystem::path& folder, const std::string& name,

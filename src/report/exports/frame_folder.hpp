@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "core/image.hpp"
 #include "judge/stress/stress.hpp"
@@ -16,9 +17,18 @@ namespace triptych::report {
 [[nodiscard]] nlohmann::json frame_json(nlohmann::json scene, const record::Record& record,
                                         const record::Device& device);
 
-// Removes frame.json and the files that the functions below write. Otherwise, if the next frame
-// fails, users could mistake the images of an earlier frame for images of the failed frame.
+// Removes all files that the functions below write. A command that does not draw an image in every
+// case calls this first, because otherwise users could mistake the images of an earlier frame for
+// images of the current frame.
 void remove_frame(const std::filesystem::path& folder);
+
+// Writes image.png, image.exr and frame.json, and removes the files of an earlier frame's
+// comparison with the reference renderer. The files of the earlier frame are replaced only after
+// all new files are complete, so that an error leaves them unchanged. Returns the files. Throws
+// IoError.
+[[nodiscard]] std::vector<std::string> replace_frame(const std::filesystem::path& folder,
+                                                     const core::Image& image,
+                                                     const nlohmann::json& frame);
 
 // Writes `image` to NAME.exr and NAME.png. Throws IoError.
 void write_image_files(const std::filesystem::path& folder, const std::string& name,

@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <iterator>
+#include <span>
 #include <string>
 
 #include "core/error.hpp"
@@ -37,6 +38,26 @@ TEST(File, ComesBackAsWritten) {
   write_file(std::string_view{}, file);
   EXPECT_EQ(text_of(file), "");
   EXPECT_EQ(files_in(folder.path()), 1);
+}
+
+TEST(File, SeveralFilesAreReplacedTogetherOrNotAtAll) {
+  const TemporaryFolder folder;
+  const auto a = folder.write("a", "old a");
+  const auto b = folder.write("b", "old b");
+  const std::string text = "new";
+  const auto bytes = std::as_bytes(std::span(text));
+  EXPECT_THAT(
+      [&] {
+        write_files({{a, bytes}, {b, bytes}, {folder.path() / "no" / "c", bytes}});
+      },
+      ThrowsMessage<IoError>(HasSubstr("no/c: cannot write: No such file")));
+  EXPECT_EQ(text_of(a), "old a");
+  EXPECT_EQ(text_of(b), "old b");
+  EXPECT_EQ(files_in(folder.path()), 2);
+  write_files({{a, bytes}, {b, bytes}});
+  EXPECT_EQ(text_of(a), "new");
+  EXPECT_EQ(text_of(b), "new");
+  EXPECT_EQ(files_in(folder.path()), 2);
 }
 
 TEST(File, ReadsFilesThatStateNoSize) {
