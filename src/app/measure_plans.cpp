@@ -20,6 +20,7 @@
 #include "measure/worker/listing.hpp"
 #include "measure/worker/own_program.hpp"
 #include "report/screen/progress_log.hpp"
+#include "report/screen/unmeasured.hpp"
 
 namespace triptych::app {
 namespace {
@@ -169,6 +170,17 @@ void announce(const RunContext& context, const std::vector<std::pair<std::string
             context.request.resume ? ", without those that are already in the store" : "");
 }
 
+// Prints why configurations of the run were skipped or failed.
+void print_unmeasured(const RunContext& context, const measure::RunResult& result) {
+  if (result.skipped + result.failed == 0) return;
+  report::Unmeasured unmeasured;
+  context.store.visit_records(result.run,
+                              [&](const record::Record& record) { unmeasured.add(record); });
+  for (const std::string& line : unmeasured.lines()) {
+    print_lines("  " + line + "\n", context.request.summary_output);
+  }
+}
+
 std::vector<measure::RunResult> measure_on(const RunContext& context,
                                            const std::vector<measure::Plan>& plans) {
   const measure::RunOptions options = options_of(context.request, context.begun);
@@ -203,6 +215,7 @@ std::vector<measure::RunResult> measure_on(const RunContext& context,
   for (std::size_t i = 0; i < plans.size(); ++i) {
     print_lines(describe(results[i], plans[i].name, context.request.store),
                 context.request.summary_output);
+    if (context.request.report_unmeasured) print_unmeasured(context, results[i]);
   }
   return results;
 }

@@ -35,6 +35,7 @@ struct MeasureRequest {
   bool timed = false;       // also measure times for plans without the check `timing`
   std::optional<std::string> error = {};  // requested error, as typed by the user
   bool report_fastest = false;            // report the fastest technique if a plan contains `auto`
+  bool report_unmeasured = false;         // print why configurations were skipped or failed
   bool verbose = false;                   // print a line for each configuration
   CiSystem ci = CiSystem::none;           // the CI system that shows the log
   std::FILE* summary_output = stdout;

@@ -16,6 +16,7 @@
 #include "reference/spheres.hpp"
 #include "scene/data_summary.hpp"
 #include "scene/file_table.hpp"
+#include "scene/find_file.hpp"
 #include "scene/particle_generators.hpp"
 #include "scene/particle_subset.hpp"
 #include "suites/particles/factors.hpp"
@@ -73,7 +74,7 @@ class ParticleSuite final : public measure::SuiteWithTruth, public measure::Spri
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
   std::vector<std::string> describe_data(const Configuration& configuration) override {
-    load(configuration);
+    static_cast<void>(read(configuration));  // the summary contains the notes
     return scene::summary_of(*loaded_.particles);
   }
   std::string data_hash(const Configuration& configuration) override {
@@ -103,6 +104,9 @@ class ParticleSuite final : public measure::SuiteWithTruth, public measure::Spri
     std::optional<StressScene> stress;
   };
 
+  // Reads the particles, unless they are already loaded. Returns whether it has read them.
+  [[nodiscard]] bool read(const Configuration& configuration);
+  // Like read(), but also reports the notes of the file reader.
   void load(const Configuration& configuration);
   // Returns the loaded stress scene, which has its own camera and viewport. Throws InputError if
   // other data are loaded.
@@ -131,16 +135,12 @@ std::string_view ParticleSuite::plan_text(std::string_view plan) const {
 std::string ParticleSuite::missing_data(const Configuration& configuration) const {
   const std::string& data = configuration.at("data");
   if (stress_data(data) || scene::particles_present(data, folders_)) return {};
-  return fmt::format(
-      "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that contains particles/",
-      data,
-      folders_.empty() ? ""
-                       : fmt::format(" in the current folder or in {}", folders_.front().string()));
+  return scene::not_found_text(data, data.substr(0, data.rfind('@')), folders_, "particles");
 }
 
-void ParticleSuite::load(const Configuration& configuration) {
+bool ParticleSuite::read(const Configuration& configuration) {
   const std::string wanted = configuration.at("colour") + " " + configuration.at("data");
-  if (loaded_.key == wanted) return;
+  if (loaded_.key == wanted) return false;
   loaded_ = {};  // frees the old set before the new one is loaded
   const std::string& data = configuration.at("data");
   const scene::ColourKind colour = scene::colour_kind(configuration.at("colour"));
@@ -154,11 +154,16 @@ void ParticleSuite::load(const Configuration& configuration) {
         data, colour, folders_,
         [&](double share) { report_loading({.what = data, .share = share}); }));
   }
-  for (const std::string& note : loaded_.particles->facts.notes) {
-    report_loading({.what = data, .share = 1, .note = note});
-  }
   report_loading({.what = data, .share = 1});
   loaded_.key = wanted;
+  return true;
+}
+
+void ParticleSuite::load(const Configuration& configuration) {
+  if (!read(configuration)) return;
+  for (const std::string& note : loaded_.particles->facts.notes) {
+    report_loading({.what = configuration.at("data"), .share = 1, .note = note});
+  }
 }
 
 const StressScene& ParticleSuite::own_values(std::string_view factor) const {

@@ -49,6 +49,19 @@ TEST_F(AbsentData, SkipsCTestChecksAndCannotBeJudgedByTheGate) {
       << gate.output;
 }
 
+// A data file may be missing because its name is misspelled.
+TEST_F(AbsentData, IsReportedByRunWithASimilarName) {
+  program.write("plan",
+                "suite: volume\ntechnique: [raycast]\ndata: [feild.nrrd, field.nrrd]\n"
+                "transfer_function: [haze]\nstep: [1, 2]\nviewport: [16]\n");
+  const Result result = program.run("run plan --device 'null:*' --store s.sqlite");
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_NE(result.output.find("  2 skipped on null:scripted: data file 'feild.nrrd' was not "
+                               "found; did you mean 'field.nrrd'?\n"),
+            std::string::npos)
+      << result.output;
+}
+
 // A machine may lack data files on purpose, but there must be something left to judge.
 TEST_F(AbsentData, CanBeExcusedUnlessNothingIsLeftToJudge) {
   ASSERT_EQ(program.run("run plan --device 'null:*' --store first.sqlite").code, 0);
