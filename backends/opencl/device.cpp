@@ -16,6 +16,7 @@
 #include "backends/opencl/volume_data.hpp"
 #include "backends/opencl/volume_parts.hpp"
 #include "core/error.hpp"
+#include "technique/largest_image.hpp"
 #include "technique/volume/filter_bound.hpp"
 #include "technique/volume/raycast_buffers.hpp"
 
@@ -130,8 +131,12 @@ std::optional<std::string> Device::size_reason(std::string_view technique,
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(work.scene.width) * static_cast<std::uint64_t>(work.scene.height);
   if (pixels * technique::raycast_counter_stride > most_indices) {
-    return fmt::format("the image has {} pixels, but the kernel can index at most {}", pixels,
-                       most_indices / technique::raycast_counter_stride);
+    constexpr std::uint64_t most_pixels = most_indices / technique::raycast_counter_stride;
+    return fmt::format(
+        "the image has {} pixels, but the kernel can index at most {}; the largest square image is "
+        "{}x{}",
+        pixels, most_pixels, technique::largest_square(most_pixels),
+        technique::largest_square(most_pixels));
   }
   technique::RaycastBuffers buffers = technique::raycast_buffers(work.scene, work.options);
   if (!cut.parts.empty()) buffers.pauses = technique::pauses_bytes(work.scene, work.options);

@@ -7,6 +7,7 @@
 #include "backends/vulkan/particle_target.hpp"
 #include "backends/vulkan/support.hpp"
 #include "technique/catalogue.hpp"
+#include "technique/largest_image.hpp"
 #include "technique/particles/option_reason.hpp"
 
 namespace triptych::vulkan_backend {
@@ -91,10 +92,11 @@ std::optional<std::string> image_reason(const Gpu& gpu, int width, int height, N
   const std::uint64_t bytes =
       pixel_bytes * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
   if (bytes <= limits.maxStorageBufferRange) return std::nullopt;
+  const std::uint64_t edge = technique::largest_square(limits.maxStorageBufferRange / pixel_bytes);
   return fmt::format(
       "an image of {}x{} pixels needs a storage buffer of {} bytes, but maxStorageBufferRange is "
-      "{}",
-      width, height, bytes, limits.maxStorageBufferRange);
+      "{}; the largest square image is {}x{}",
+      width, height, bytes, limits.maxStorageBufferRange, edge, edge);
 }
 
 std::optional<std::string> memory_reason(const Gpu& gpu, std::uint64_t needed) {

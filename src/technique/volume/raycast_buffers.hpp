@@ -14,6 +14,7 @@ namespace triptych::technique {
 
 // The size of each buffer in bytes.
 struct RaycastBuffers {
+  std::uint64_t pixels = 0;    // the number of pixels of the image
   std::uint64_t image = 0;     // includes the output of injected work (extra_work.hpp)
   std::uint64_t counters = 0;  // needed only for frames with counters
   std::uint64_t bricks = 0;    // one word for each brick; exists even if nothing is skipped
@@ -31,7 +32,8 @@ struct RaycastBuffers {
                                          const RaycastOptions& options);
 
 // Returns a message that names the first buffer larger than `most` bytes, or nullopt if all buffers
-// fit. `limit` is the API's name for that limit.
+// fit. `limit` is the API's name for that limit. If the buffer's size depends on the size of the
+// image, the message names the largest square image whose buffers fit.
 [[nodiscard]] std::optional<std::string> buffer_reason(const RaycastBuffers& buffers,
                                                        std::uint64_t most, std::string_view limit);
 

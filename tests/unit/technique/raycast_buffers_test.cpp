@@ -5,6 +5,7 @@
 #include <span>
 
 #include "scene/generators.hpp"
+#include "technique/largest_image.hpp"
 #include "technique/volume/brick_map.hpp"
 #include "technique/volume/extra_work.hpp"
 #include "technique/volume/quadrature_table.hpp"
@@ -64,7 +65,17 @@ TEST(RaycastBuffers, ATooLargeBufferIsReported) {
   EXPECT_EQ(reason(Skip::bricks), "");
   scene.width = 2049;
   EXPECT_EQ(reason(Skip::bricks),
-            "the raycaster needs 134283264 bytes for its counters, but theLimit is 134217728");
+            "the raycaster needs 134283264 bytes for its counters, but theLimit is 134217728; the "
+            "largest square image is 2048x2048");
+}
+
+TEST(LargestSquare, IsExact) {
+  for (const std::uint64_t edge : {1ULL, 2ULL, 2896ULL, 94906267ULL, 4294967295ULL}) {
+    EXPECT_EQ(largest_square(edge * edge - 1), edge - 1);
+    EXPECT_EQ(largest_square(edge * edge), edge);
+    EXPECT_EQ(largest_square(edge * edge + edge), edge);
+  }
+  EXPECT_EQ(largest_square(0), 0U);
 }
 
 }  // namespace
