@@ -111,6 +111,8 @@ std::string without_element(const std::vector<ReadFacts::Kind>& kinds) {
 ReadFacts facts_of(Atoms& atoms) {
   ReadFacts facts{.kinds = counted_kinds(atoms),
                   .elements = atoms.elements,
+                  .frames = atoms.frames,
+                  .box_edges = atoms.box_edges,
                   .value_type = {},
                   .orientation = {},
                   .notes = std::move(atoms.notes)};

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "scene/line_reader.hpp"
 #include "scene/particles.hpp"
+#include "scene/read_facts.hpp"
 
 namespace triptych::scene {
 
@@ -24,6 +26,8 @@ struct Atoms {
   bool elements = true;             // true: the kinds are elements; false: they are numbered types
   double angstrom = 1;              // the length of an ångström in the file's unit
   std::vector<std::string> notes;   // what the reader had to guess (see ReadFacts::notes)
+  std::optional<std::uint64_t> frames = {};  // see ReadFacts::frames
+  std::optional<BoxEdges> box_edges = {};    // see ReadFacts::box_edges
 
   // Returns the index of the kind with this name. Adds the kind if it is new.
   [[nodiscard]] std::uint32_t kind(std::string_view name);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 
 #include "scene/scalar_dispatch.hpp"
 
@@ -62,6 +63,45 @@ class TextImage {
 
 void add_notes(std::vector<std::string>& lines, const ReadFacts& facts) {
   for (const std::string& note : facts.notes) lines.push_back("note: " + note);
+}
+
+// Returns a description of the frames of a trajectory, or an empty string if the file has one
+// frame.
+std::string frames_text(const ReadFacts& facts) {
+  if (!facts.frames) {
+    return fmt::format("frame: {} (the number of frames in the file is not known)", facts.frame);
+  }
+  if (*facts.frames == 1) return {};
+  return fmt::format("frames: {} (0 to {}; this is frame {}; data=FILE@K selects frame K)",
+                     *facts.frames, *facts.frames - 1, facts.frame);
+}
+
+// Returns the lengths of the box's edges and, if the edges are not orthogonal, the angles between
+// them.
+std::string box_text(const BoxEdges& edges) {
+  const auto dot = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  std::array<double, 3> lengths{};
+  for (std::size_t i = 0; i < 3; ++i) lengths.at(i) = std::sqrt(dot(edges.at(i), edges.at(i)));
+  std::string text = fmt::format("{:.6g} x {:.6g} x {:.6g}", lengths[0], lengths[1], lengths[2]);
+  const std::array<double, 3> products{dot(edges[1], edges[2]), dot(edges[0], edges[2]),
+                                       dot(edges[0], edges[1])};
+  if (products == std::array<double, 3>{}) return text;
+  const auto angle = [&](std::size_t i) {
+    const double cosine = products.at(i) / (lengths.at((i + 1) % 3) * lengths.at((i + 2) % 3));
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  };
+  return text +
+         fmt::format(", angles {:.6g}, {:.6g} and {:.6g} degrees", angle(0), angle(1), angle(2));
+}
+
+// Returns the smallest and the largest radius, or one number if they have the same six digits.
+std::string radii_text(float least, float most, const std::string& unit) {
+  const std::string smallest = fmt::format("{:.6g}", least);
+  const std::string largest = fmt::format("{:.6g}", most);
+  return smallest == largest ? fmt::format("{}{}, all equal", smallest, unit)
+                             : fmt::format("{} to {}{}", smallest, largest, unit);
 }
 
 std::string unit_text(const ReadFacts& facts) {
@@ -198,17 +238,25 @@ std::vector<std::string> summary_of(const ParticleSet& set) {
       set.dropped == 0 ? ""
                        : fmt::format(", plus {} dropped because of an invalid position or radius",
                                      set.dropped)));
+  if (const std::string frames = facts.format.empty() ? "" : frames_text(facts); !frames.empty()) {
+    lines.push_back(frames);
+  }
   if (!facts.kinds.empty()) {
     std::string kinds = facts.elements ? "elements:" : "types:";
     for (const auto& [name, count] : facts.kinds) kinds += fmt::format(" {} {}", name, count);
     lines.push_back(kinds);
   }
-  lines.push_back(fmt::format("extent: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}){}",
-                              box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z, unit));
+  lines.push_back(
+      fmt::format("extent: ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}){}, including the "
+                  "radii",
+                  box.lo.x, box.lo.y, box.lo.z, box.hi.x, box.hi.y, box.hi.z, unit));
+  if (facts.box_edges) {
+    lines.push_back(fmt::format("simulation box: {}{}", box_text(*facts.box_edges), unit));
+  }
   if (!set.spheres.empty()) {
     const auto [least, most] = std::ranges::minmax(
         set.spheres, {}, [](const std::array<float, 4>& sphere) { return sphere[3]; });
-    lines.push_back(fmt::format("radii: {:.6g} to {:.6g}{}", least[3], most[3], unit));
+    lines.push_back("radii: " + radii_text(least[3], most[3], unit));
   }
   append_text_image(lines, set, box);
   add_notes(lines, facts);

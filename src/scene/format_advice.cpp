@@ -84,8 +84,8 @@ constexpr std::array<Conversion, 14> volume_conversions{{
      "a.dtype); a.astype('<f4').tofile('OUT.raw')\"; then use data=OUT.raw:XxYxZ:f32"},
 }};
 
-std::string advice(std::string_view ending, std::span<const Conversion> conversions,
-                   std::string_view endings) {
+std::string conversion_text(std::string_view ending, std::span<const Conversion> conversions,
+                            std::string_view endings) {
   const auto known = std::ranges::find_if(
       conversions, [&](const Conversion& each) { return has_ending(each.endings, ending); });
   if (known == conversions.end()) {
@@ -93,6 +93,44 @@ std::string advice(std::string_view ending, std::span<const Conversion> conversi
   }
   return fmt::format("{} is {}; the nearest supported format is {}; to convert: {} (supported: {})",
                      ending, known->what, known->to, known->command, endings);
+}
+
+// The data that a suite reads.
+struct ReadBySuite {
+  std::string_view suite;
+  std::string_view data;  // "volume" or "particle"
+  std::span<const Conversion> conversions;
+  std::string endings;
+};
+
+// Returns the format that the ending or the beginning of the content indicates, or nullptr.
+template <typename Format>
+const Format* find_format(std::span<const Format> formats, std::string_view ending,
+                          std::string_view start) {
+  const auto found = std::ranges::find_if(formats, [&](const Format& format) {
+    return has_ending(format.endings, ending) || format.begins(start);
+  });
+  return found == formats.end() ? nullptr : &*found;
+}
+
+// `other` is the format of the other suite to which the file belongs, or nullptr.
+template <typename Format>
+std::string unknown_format(std::string_view ending, const ReadBySuite& read, const Format* other,
+                           const ReadBySuite& other_read) {
+  if (other != nullptr) {
+    return fmt::format(
+        "this looks like a {} file (format {}), which the suite {} does not read; use the suite "
+        "{}, as in "
+        "`triptych render {} --set data=FILE`",
+        other_read.data, other->name, read.suite, other_read.suite, other_read.suite);
+  }
+  const std::string what =
+      ending.empty() ? fmt::format(
+                           "the file name has no extension, and the content does not "
+                           "identify a {} format",
+                           read.data)
+                     : fmt::format("'{}' is not a known {} format", quotable(ending), read.data);
+  return what + "; " + conversion_text(ending, read.conversions, read.endings);
 }
 
 template <typename Format>
@@ -122,12 +160,15 @@ std::string volume_endings() {
   return all_endings(volume_formats());
 }
 
-std::string particle_advice(std::string_view ending) {
-  return advice(ending, particle_conversions, particle_endings());
+std::string particle_advice(std::string_view ending, std::string_view start) {
+  return unknown_format(ending, {"particles", "particle", particle_conversions, particle_endings()},
+                        find_format(volume_formats(), ending, start), {"volume", "volume", {}, {}});
 }
 
-std::string volume_advice(std::string_view ending) {
-  return advice(ending, volume_conversions, volume_endings());
+std::string volume_advice(std::string_view ending, std::string_view start) {
+  return unknown_format(ending, {"volume", "volume", volume_conversions, volume_endings()},
+                        find_format(particle_formats(), ending, start),
+                        {"particles", "particle", {}, {}});
 }
 
 }  // namespace triptych::scene

@@ -14,9 +14,11 @@ namespace triptych::scene {
 [[nodiscard]] std::string particle_endings();
 [[nodiscard]] std::string volume_endings();
 
-// Return advice for a file whose name has this ending (such as ".xtc", or empty if the name has no
-// ending): a command that converts the file if its format is known, and the supported endings.
-[[nodiscard]] std::string particle_advice(std::string_view ending);
-[[nodiscard]] std::string volume_advice(std::string_view ending);
+// Return the reason why a file is not read: its format is unknown. `ending` is the ending of its
+// name (such as ".xtc", or empty if the name has no ending), and `start` is the beginning of its
+// content. The reason names the other suite if the file has a format of that suite. Otherwise it
+// contains a command that converts the file if its format is known, and the supported endings.
+[[nodiscard]] std::string particle_advice(std::string_view ending, std::string_view start);
+[[nodiscard]] std::string volume_advice(std::string_view ending, std::string_view start);
 
 }  // namespace triptych::scene

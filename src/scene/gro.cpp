@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "scene/element_names.hpp"
 
@@ -40,8 +41,8 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
                   const LineReader& reader) {
   if (line.size() < places_begin + 3 * width) {
     reader.reject(fmt::format(
-        "expected an atom with its position in columns 21 to {}, but the line has {} columns",
-        places_begin + 3 * width, line.size()));
+        "expected an atom with its position in columns 21 to {}, but the line has {} columns{}",
+        places_begin + 3 * width, line.size(), reader.truncation_hint()));
   }
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
   std::array<double, 3> place{};
@@ -60,14 +61,29 @@ void add_gro_atom(Atoms& atoms, std::string_view line, std::size_t width,
 }
 
 // Checks that the line describes a box and not another atom. In a box larger than 1000 nm, no
-// blanks separate the numbers, so a line with three decimal points is also accepted. The box itself
-// is not used.
+// blanks separate the numbers, so a line with three decimal points is also accepted.
 void check_box(std::string_view line, const LineReader& reader) {
   const std::size_t words = split_words(line).size();
   const bool numbers = line.find_first_not_of("0123456789.+-eE \t") == std::string_view::npos;
   const bool enough = words == 3 || words == 9 || std::ranges::count(line, '.') >= 3;
   if (numbers && enough) return;
   reader.reject("expected the box (3 or 9 numbers) after the last atom");
+}
+
+// Returns the edges of the box: "xx yy zz" or "xx yy zz xy xz yx yz zx zy" (GROMACS manual, "gro").
+// Returns nullopt if there is no box, which GROMACS writes as zeros, or if no blanks separate the
+// numbers.
+std::optional<BoxEdges> gro_box_edges(std::string_view line) {
+  std::array<double, 9> v{};
+  const auto words = split_words(line);
+  if (words.size() != 3 && words.size() != 9) return std::nullopt;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto number = parse_number<double>(words[i]);
+    if (!number || !std::isfinite(*number)) return std::nullopt;
+    v.at(i) = *number;
+  }
+  if (!(v[0] > 0 && v[1] > 0 && v[2] > 0)) return std::nullopt;
+  return BoxEdges{{{v[0], v[3], v[4]}, {v[5], v[1], v[6]}, {v[7], v[8], v[2]}}};
 }
 
 }  // namespace
@@ -97,7 +113,10 @@ ParticleSet read_gro(LineReader& reader, std::uint64_t frame, ColourKind colour)
       if (i == 0) width = place_width(line, reader);
       add_gro_atom(atoms, line, width, reader);
     }
-    check_box(reader.require("the box"), reader);
+    const std::string_view box = reader.require("the box");
+    check_box(box, reader);
+    atoms.box_edges = gro_box_edges(box);
+    if (const auto more = reader.count_frames(1, 1)) atoms.frames = current + 1 + *more;
     if (atoms.places.empty()) reader.reject("expected atoms, found none");
     name_elements(atoms);
     return to_particles(std::move(atoms), colour, reader);

@@ -86,8 +86,34 @@ const Style& guessed_style(const Words& words, const LineReader& reader) {
                   words.size()));
 }
 
+struct DataHeader {
+  std::optional<std::uint64_t> count;
+  std::array<std::optional<double>, 3> size;
+  std::array<double, 3> tilt{};  // xy, xz, yz
+
+  [[nodiscard]] std::optional<BoxEdges> box_edges() const {
+    if (!size[0] || !size[1] || !size[2]) return std::nullopt;
+    return BoxEdges{{{*size[0], 0, 0}, {tilt[0], *size[1], 0}, {tilt[1], tilt[2], *size[2]}}};
+  }
+};
+
+// Reads "LOW HIGH xlo xhi" (or y, z) or "XY XZ YZ xy xz yz". The box is only printed, so a line
+// that cannot be parsed is ignored.
+void read_box_line(const Words& words, DataHeader& header) {
+  const auto number = [&words](std::size_t i) { return parse_number<double>(words[i]); };
+  constexpr std::array<std::string_view, 3> marks{"xlo", "ylo", "zlo"};
+  for (std::size_t axis = 0; axis < marks.size(); ++axis) {
+    if (words.size() != 4 || words[2] != marks.at(axis)) continue;
+    const auto lo = number(0);
+    const auto hi = number(1);
+    if (lo && hi) header.size.at(axis) = *hi - *lo;
+  }
+  if (words.size() != 6 || words[3] != "xy") return;
+  for (std::size_t i = 0; i < 3; ++i) header.tilt.at(i) = number(i).value_or(0);
+}
+
 // Reads the header up to the Atoms section, and returns the style that the section's comment names.
-std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& count) {
+std::string_view find_atoms(LineReader& reader, DataHeader& header) {
   static_cast<void>(reader.require("a title"));
   for (;;) {
     const std::string_view line = reader.require("the Atoms section");
@@ -98,8 +124,9 @@ std::string_view find_atoms(LineReader& reader, std::optional<std::uint64_t>& co
     }
     const Words words = split_words(text);
     if (words.size() == 2 && words[1] == "atoms") {
-      count = reader.count(words[0], "the number of atoms");
+      header.count = reader.count(words[0], "the number of atoms");
     }
+    read_box_line(words, header);
   }
 }
 
@@ -131,8 +158,9 @@ void add_data_atom(Atoms& atoms, const Words& words, const Style& style, const L
 ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind colour) {
   if (frame > 0)
     reader.reject(fmt::format("there is no frame {}; a LAMMPS data file has only frame 0", frame));
-  std::optional<std::uint64_t> count;
-  const std::string_view comment = find_atoms(reader, count);
+  DataHeader header;
+  const std::string_view comment = find_atoms(reader, header);
+  const std::optional<std::uint64_t> count = header.count;
   if (!count) reader.reject("expected 'N atoms' before the Atoms section");
   if (*count == 0) reader.reject("expected atoms, found none");
   const Style* style = named_style(comment, reader);
@@ -143,6 +171,8 @@ ParticleSet read_lammps_data(LineReader& reader, std::uint64_t frame, ColourKind
   const int first_line = reader.line() + 1;
   Atoms atoms;
   atoms.elements = false;
+  atoms.frames = 1;
+  atoms.box_edges = header.box_edges();
   atoms.places.reserve(reader.reservation(*count, 10));
   Words words;
   for (std::uint64_t i = 0; i < *count; ++i) {

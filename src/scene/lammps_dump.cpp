@@ -12,6 +12,7 @@ namespace triptych::scene {
 namespace {
 
 constexpr std::string_view item_mark = "ITEM: ";
+constexpr std::string_view count_item = "ITEM: NUMBER OF ATOMS";  // occurs once in each frame
 using DumpWords = std::vector<std::string_view>;
 
 // The simulation box, which is needed to convert scaled positions.
@@ -23,6 +24,9 @@ struct Cell {
   [[nodiscard]] std::array<double, 3> place(const std::array<double, 3>& scaled) const {
     return {lo[0] + scaled[0] * size[0] + scaled[1] * xy + scaled[2] * xz,
             lo[1] + scaled[1] * size[1] + scaled[2] * yz, lo[2] + scaled[2] * size[2]};
+  }
+  [[nodiscard]] BoxEdges edges() const {
+    return {{{size[0], 0, 0}, {xy, size[1], 0}, {xz, yz, size[2]}}};
   }
 };
 
@@ -135,7 +139,8 @@ class RowReader {
 
   void add(const DumpWords& row) {
     if (row.size() != columns_.count) {
-      reader_.reject(fmt::format("expected {} values, found {}", columns_.count, row.size()));
+      reader_.reject(fmt::format("expected {} values, found {}{}", columns_.count, row.size(),
+                                 reader_.truncation_hint()));
     }
     constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
     std::array<double, 3> place{};
@@ -195,6 +200,8 @@ ParticleSet read_lammps_dump(LineReader& reader, std::uint64_t frame, ColourKind
       split_words_into(reader.require(atoms_wanted), row);
       rows.add(row);
     }
+    if (header.cell) atoms.box_edges = cell.edges();
+    atoms.frames = current + 1 + reader.count_lines(count_item);
     if (atoms.places.empty()) reader.reject("expected atoms, found none");
     if (!reader.at_end() && !reader.require("a frame").starts_with(item_mark)) {
       reader.reject(fmt::format("expected the next frame after {} atoms", *header.count));

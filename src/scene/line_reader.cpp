@@ -41,6 +41,43 @@ void LineReader::skip(std::uint64_t count, std::string_view what) {
   for (std::uint64_t i = 0; i < count; ++i) static_cast<void>(require(what));
 }
 
+std::string LineReader::truncation_hint() const {
+  const std::string_view rest = text_.substr(std::min(begin_, text_.size()));
+  const bool ends = rest.find_first_not_of(" \t\r\n") == std::string_view::npos;
+  return ends ? "; the file ends here, so it may be truncated" : "";
+}
+
+std::optional<std::uint64_t> LineReader::count_frames(int before, int after) const {
+  LineReader rest = *this;
+  std::uint64_t frames = 0;
+  const auto skip_lines = [&rest](std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+      if (!rest.next()) return false;
+    }
+    return true;
+  };
+  for (; !rest.at_end(); ++frames) {
+    if (!skip_lines(static_cast<std::uint64_t>(before))) return std::nullopt;
+    const auto line = rest.next();
+    const auto count = line ? parse_number<std::uint64_t>(trimmed(*line)) : std::nullopt;
+    if (!count || !skip_lines(*count) || !skip_lines(static_cast<std::uint64_t>(after))) {
+      return std::nullopt;
+    }
+  }
+  return frames;
+}
+
+std::uint64_t LineReader::count_lines(std::string_view start) const {
+  std::uint64_t lines = 0;
+  for (std::size_t at = begin_; at < text_.size();) {
+    at = text_.find(start, at);
+    if (at == std::string_view::npos) break;
+    if (at == 0 || text_[at - 1] == '\n') ++lines;
+    at += start.size();
+  }
+  return lines;
+}
+
 void LineReader::reject_at(int line, const std::string& message) const {
   throw core::InputError({.file = file_, .line = line}, message);
 }

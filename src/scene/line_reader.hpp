@@ -30,6 +30,16 @@ class LineReader {
   // Skips `count` lines. Throws InputError if there are fewer, like require().
   void skip(std::uint64_t count, std::string_view what);
 
+  // Returns a hint to append to a message about a line that is too short: that the file may be
+  // truncated. Returns an empty string if other lines follow.
+  [[nodiscard]] std::string truncation_hint() const;
+  // Returns the number of frames in the rest of the text. Each frame consists of `before` lines, a
+  // line with a number N, and N + `after` further lines. Returns nullopt if the text does not
+  // consist of such frames.
+  [[nodiscard]] std::optional<std::uint64_t> count_frames(int before, int after) const;
+  // Returns the number of lines in the rest of the text that begin with `start`.
+  [[nodiscard]] std::uint64_t count_lines(std::string_view start) const;
+
   // Throw InputError. The error names the last line that was read, or `line`.
   [[noreturn]] void reject(const std::string& message) const { reject_at(line_, message); }
   [[noreturn]] void reject_at(int line, const std::string& message) const;

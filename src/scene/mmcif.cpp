@@ -196,6 +196,7 @@ class AtomRows {
           "there is no frame {}; number of frames in the file: {} (the first is frame 0)", frame_,
           models_.size()));
     }
+    atoms_.frames = models_.size();
     name_elements(atoms_);
     return std::move(atoms_);
   }

@@ -137,9 +137,13 @@ List read_list(Bytes& bytes, int version) {
   return list;
 }
 
-// Reads the file up to the requested frame, and leaves the position at its beginning. Returns the
-// position at which the frame ends.
-std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
+struct FrameTable {
+  std::uint32_t frames = 0;
+  std::uint64_t end = 0;  // the position at which the requested frame ends
+};
+
+// Reads the file up to the requested frame, and leaves the position at its beginning.
+FrameTable find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
   constexpr std::array<char, 6> magic{'M', 'M', 'P', 'L', 'D', '\0'};
   if (bytes.read<std::array<char, 6>>("'MMPLD'") != magic) {
     bytes.move_to(0);
@@ -168,7 +172,7 @@ std::uint64_t find_frame(Bytes& bytes, std::uint64_t frame, int& version) {
                     frame, table + offsets.size(), bytes.size(), range[0], range[1]));
   }
   bytes.move_to(range[0]);
-  return range[1];
+  return {frames, range[1]};
 }
 
 template <typename T, std::size_t N>
@@ -247,7 +251,7 @@ ParticleSet read_mmpld(std::span<const char> content, const std::string& file, s
                        ColourKind colour, ProgressSteps progress) {
   Bytes bytes(content, file);
   int version = 0;
-  const std::uint64_t end = find_frame(bytes, frame, version);
+  const auto [frames, end] = find_frame(bytes, frame, version);
   if (version >= 102) static_cast<void>(bytes.read<float>("the frame's time"));
   const auto list_count = bytes.read<std::uint32_t>("the number of lists");
   std::vector<List> lists;
@@ -266,6 +270,7 @@ ParticleSet read_mmpld(std::span<const char> content, const std::string& file, s
   }
   ParticleSet set;
   set.colour = colour;
+  set.facts.frames = frames;
   reserve(set, static_cast<std::size_t>(total));
   std::uint32_t id = 0;
   for (std::size_t index = 0; index < lists.size(); ++index) {

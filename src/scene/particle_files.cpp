@@ -104,6 +104,7 @@ ParticleSet read(const Source& source, ColourKind colour, const Progress& progre
       format.read({.bytes = text, .file = name, .progress = steps}, source.frame, colour);
   set.facts.format = format.name;
   set.facts.unit = format.unit;
+  set.facts.frame = source.frame;
   return set;
 }
 

@@ -97,8 +97,7 @@ const ParticleFormat& particle_format(const std::string& file, std::string_view 
   const auto begun = std::ranges::find_if(
       formats, [&](const ParticleFormat& format) { return format.begins(start); });
   if (named == formats.end() && begun == formats.end()) {
-    throw core::InputError({.file = file}, fmt::format("'{}' is not a known particle format; {}",
-                                                       quotable(ending), particle_advice(ending)));
+    throw core::InputError({.file = file}, particle_advice(ending, start));
   }
   if (named == formats.end()) return *begun;
   if (begun == formats.end() || begun == named || have_same_beginning(*named, *begun))

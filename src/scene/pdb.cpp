@@ -87,8 +87,9 @@ void add_pdb_atom(Atoms& atoms, std::string_view line, const LineReader& reader)
     reader.reject("the atom record contains tabs; expected fixed-width columns padded with blanks");
   }
   if (line.size() < end_of_place) {
-    reader.reject(fmt::format(
-        "expected an atom with its position in columns 31 to 54, found {} columns", line.size()));
+    reader.reject(
+        fmt::format("expected an atom with its position in columns 31 to 54, found {} columns{}",
+                    line.size(), reader.truncation_hint()));
   }
   const std::array<double, 3> place{coordinate(line, 31, "x in columns 31 to 38", reader),
                                     coordinate(line, 39, "y in columns 39 to 46", reader),
@@ -190,6 +191,7 @@ ParticleSet read_pdb(LineReader& reader, std::uint64_t frame, ColourKind colour)
                     frame, std::max<std::uint64_t>(frames.count(), 1)));
   }
   if (atoms.places.empty()) reader.reject("expected ATOM or HETATM records, found none");
+  atoms.frames = frames.count();
   name_elements(atoms, true);
   return to_particles(std::move(atoms), colour, reader);
 }

@@ -16,8 +16,8 @@ void add_pqr_atom(Atoms& atoms, const std::vector<std::string_view>& words,
   if (words.size() != 10 && words.size() != 11) {
     reader.reject(
         fmt::format("expected 'ATOM number name residue [chain] number x y z charge "
-                    "radius' (10 or 11 words), found {} words",
-                    words.size()));
+                    "radius' (10 or 11 words), found {} words{}",
+                    words.size(), reader.truncation_hint()));
   }
   const std::size_t x = words.size() - 5;
   atoms.add({reader.number(words[x], "x"), reader.number(words[x + 1], "y"),
@@ -55,6 +55,7 @@ ParticleSet read_pqr(LineReader& reader, std::uint64_t frame, ColourKind colour)
                     frame, frames));
   }
   if (atoms.places.empty()) reader.reject("expected ATOM or HETATM records, found none");
+  atoms.frames = frames;
   name_elements(atoms);
   return to_particles(std::move(atoms), colour, reader);
 }

@@ -93,6 +93,12 @@ Entries from_bytes(std::span<const std::byte> bytes) {
 
 std::array<double, 4> parse_entry(std::string_view text, const core::FilePlace& place) {
   const auto words = split_words(text);
+  if (text.find_first_of(",;") != std::string_view::npos) {
+    throw core::InputError(
+        place,
+        "expected four values (R G B A) separated by blanks, found a comma or semicolon; to "
+        "convert: tr ',;' '  ' < IN > OUT");
+  }
   if (words.size() != 4) {
     throw core::InputError(place,
                            fmt::format("expected four values (R G B A), got {}", words.size()));
@@ -174,6 +180,19 @@ TransferFunction load_transfer_function(std::string_view name,
   }
   result.entries = from_file(*file);
   return result;
+}
+
+bool is_transparent(const TransferFunction& function, double lo, double hi) {
+  // Between the centres of two entries, the opacity is interpolated. So the value x depends on the
+  // entries at both sides of 256·x − ½.
+  const auto entry = [](double place) {
+    return static_cast<std::size_t>(std::clamp(place, 0.0, 255.0));
+  };
+  const std::size_t first = entry(std::floor(lo * 256 - 0.5));
+  const std::size_t last = entry(std::ceil(hi * 256 - 0.5));
+  return std::all_of(function.entries.begin() + static_cast<std::ptrdiff_t>(first),
+                     function.entries.begin() + static_cast<std::ptrdiff_t>(last) + 1,
+                     [](const auto& rgba) { return rgba[3] <= 0; });
 }
 
 std::vector<std::string_view> transfer_function_presets() {

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 #include "scene/scalar_dispatch.hpp"
@@ -103,6 +105,60 @@ Range range_of(const Window& window, Counted<Scalar>& counted, const std::string
                   name, text_of(range), text_of(counted.range())));
 }
 
+// Returns the normalised value of `value` (see Mapping), clamped to [0, 1].
+double normalised(double value, const Range& range, Mapping mapping) {
+  const bool logarithmic = mapping == Mapping::logarithmic;
+  const auto scale = [logarithmic](double v) { return logarithmic ? std::log(v) : v; };
+  const double x = (scale(value) - scale(range.lo)) / (scale(range.hi) - scale(range.lo));
+  return std::clamp(x, 0.0, 1.0);
+}
+
+// The position of a volume's voxels relative to its window. For a logarithmic mapping, values that
+// are not positive count as below the window. `other` counts values that are not finite.
+struct WindowShares {
+  std::uint64_t below = 0;
+  std::uint64_t inside = 0;
+  std::uint64_t above = 0;
+  std::uint64_t other = 0;
+};
+
+template <typename Scalar>
+WindowShares window_shares(const Volume& volume, const Range& range) {
+  WindowShares shares;
+  for (std::size_t i = 0; i < volume.voxel_count(); ++i) {
+    const auto value = static_cast<double>(load_scalar<Scalar>(volume.voxels.data(), i));
+    if (!std::isfinite(value)) {
+      ++shares.other;
+    } else if (value < range.lo) {
+      ++shares.below;
+    } else {
+      ++(value > range.hi ? shares.above : shares.inside);
+    }
+  }
+  return shares;
+}
+
+// Returns a note if nearly all values are on the same side of the window, so that the image shows
+// hardly any of the data. Returns an empty string otherwise.
+template <typename Scalar>
+std::string window_note(const WindowShares& shares, const Range& range, Mapping mapping,
+                        Counted<Scalar>& counted) {
+  constexpr double nearly_all = 0.9999;
+  const double finite = static_cast<double>(shares.below + shares.inside + shares.above);
+  const bool is_below = shares.below > shares.above;
+  const double share = static_cast<double>(is_below ? shares.below : shares.above) / finite;
+  if (share < nearly_all) return {};
+  std::string percentiles;
+  for (const double percent : {1.0, 25.0, 50.0, 75.0, 99.0}) {
+    percentiles += fmt::format(" p{} {:.6g}", percent, counted.percentile(percent));
+  }
+  return fmt::format(
+      "{:.6g} % of the values are {} the window {}, so they are drawn like its {} end; the range "
+      "of the {}values is {}, and their percentiles are{}",
+      100 * share, is_below ? "below" : "above", text_of(range), is_below ? "lower" : "upper",
+      mapping == Mapping::logarithmic ? "positive " : "", text_of(counted.range()), percentiles);
+}
+
 template <typename Scalar>
 void set_window_of(Volume& volume, const std::optional<Window>& window, Mapping mapping) {
   Counted<Scalar> counted(volume, mapping);
@@ -120,6 +176,16 @@ void set_window_of(Volume& volume, const std::optional<Window>& window, Mapping 
   volume.range_hi = range.hi;
   volume.mapping = mapping;
   volume.clipped = available.lo < range.lo || available.hi > range.hi;
+  const WindowShares shares = window_shares<Scalar>(volume, range);
+  // For a logarithmic mapping, values that are not positive are normalised to 0.
+  const double lowest =
+      mapping == Mapping::logarithmic ? 0 : normalised(available.lo, range, mapping);
+  const double highest = normalised(available.hi, range, mapping);
+  // The range of doubles may overflow, so that the result is not a number.
+  if (shares.other == 0 && lowest <= highest) volume.used = {lowest, highest};
+  if (std::string note = window_note(shares, range, mapping, counted); !note.empty()) {
+    volume.facts.notes.push_back(std::move(note));
+  }
 }
 
 }  // namespace

@@ -38,7 +38,8 @@ struct Window {
 // values are used, and the full range begins at the smallest positive value. The full range with a
 // linear mapping leaves the volume unchanged. Throws InputError if there are no usable values, if
 // the window's lower end is not below its upper end for these voxels, or if the mapping is
-// logarithmic and the window does not begin above 0.
+// logarithmic and the window does not begin above 0. If nearly all values are below the window, or
+// nearly all are above it, adds a note to the volume's facts.
 void set_window(Volume& volume, const std::optional<Window>& window, Mapping mapping);
 
 }  // namespace triptych::scene

@@ -40,7 +40,11 @@ struct Volume {
   double range_hi = 1;
   Mapping mapping = Mapping::linear;
   bool clipped = false;  // some values are outside the range (see set_window())
-  ReadFacts facts;       // facts about the file
+  // An interval that contains the normalised values of all voxels. It is smaller than [0, 1] only
+  // if set_window() has found that the voxels use a part of the window, and if all of them are
+  // finite.
+  std::array<double, 2> used{0, 1};
+  ReadFacts facts;  // facts about the file
 
   [[nodiscard]] std::size_t voxel_count() const noexcept;
   // Returns a value as stored in the file, which may be NaN or infinite.

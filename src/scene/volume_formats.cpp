@@ -81,9 +81,7 @@ const VolumeFormat& volume_format(const std::filesystem::path& file) {
   const auto begun = std::ranges::find_if(
       formats, [&](const VolumeFormat& format) { return format.begins(start); });
   if (named == formats.end() && begun == formats.end()) {
-    throw core::InputError({.file = file.string()},
-                           fmt::format("'{}' is not a known volume format; {}", quotable(ending),
-                                       volume_advice(ending)));
+    throw core::InputError({.file = file.string()}, volume_advice(ending, start));
   }
   if (named == formats.end()) return *begun;
   if (begun != formats.end() && begun != named) {

@@ -117,7 +117,9 @@ void split_quoted_into(std::string_view line, std::vector<std::string_view>& wor
 
 void add_xyz_atom(Atoms& atoms, const std::vector<std::string_view>& words,
                   const XyzColumns& columns, const LineReader& reader) {
-  if (!columns.count && words.size() < 4) reader.reject("expected an element, x, y and z");
+  if (!columns.count && words.size() < 4) {
+    reader.reject("expected an element, x, y and z" + reader.truncation_hint());
+  }
   if (columns.count && words.size() != *columns.count) {
     reader.reject(fmt::format("expected {} columns, as declared by Properties, found {}",
                               *columns.count, words.size()));
@@ -243,6 +245,7 @@ ParticleSet read_xyz(LineReader& reader, std::uint64_t frame, ColourKind colour)
       add_xyz_atom(atoms, words, columns, reader);
     }
     if (atoms.places.empty()) reader.reject("expected atoms, found none");
+    if (const auto more = reader.count_frames(0, 1)) atoms.frames = current + 1 + *more;
     check_end_of_frame(reader);
     name_words(atoms, columns.numbered);
     return to_particles(std::move(atoms), colour, reader);

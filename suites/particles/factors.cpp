@@ -31,10 +31,12 @@ const std::vector<Factor>& particle_factors() {
                "generate:NAME:COUNT, or stress:CASE:VARIANT (a stress scene)"),
       choice("colour", {"rgba8", "rgba32", "intensity"}, "rgba8", FactorRole::scene,
              "how each particle's colour is stored: as four bytes (rgba8), as four floats "
-             "(rgba32), or as an intensity that is looked up in the transfer function"),
+             "(rgba32), or as an intensity that is looked up in the transfer function; the "
+             "intensity comes from the file (MMPLD) or is the rank of the particle's element or "
+             "type, divided by the number of elements or types"),
       text("transfer_function", "haze",
            "the transfer function, which maps intensities to colours: the preset haze or surfaces, "
-           "or a file with 256 RGBA entries"),
+           "or a file with 256 lines of four numbers, R G B A, from 0 to 1 or from 0 to 255"),
       choice("transfer", {"vertex", "pixel"}, "vertex", FactorRole::method,
              "the shader stage that looks up colours in the transfer function"),
       choice("ray", {"vertex", "pixel"}, "pixel", FactorRole::method,

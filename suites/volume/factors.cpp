@@ -62,8 +62,9 @@ const std::vector<Factor>& volume_factors() {
                "Euclidean norm of all components")),
       text("transfer_function", "haze",
            "the transfer function, which maps values to colours and opacities: the preset haze or "
-           "surfaces, or a file with 256 RGBA entries; own: the transfer function of the analytic "
-           "problem or stress case (surfaces for all other data)"),
+           "surfaces, or a file with 256 lines of four numbers, R G B A, from 0 to 1 or from 0 to "
+           "255; own: the transfer function of the analytic problem or stress case (surfaces for "
+           "all other data)"),
       number("step", 1.0 / 64, 4096, "1", FactorRole::scene,
              "the distance between samples in units of the smallest voxel spacing; own: the stress "
              "case's step (1 for all other data)",

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "measure/contract/suite.hpp"
+#include "scene/transfer_function.hpp"
 #include "scene/volume.hpp"
 #include "suites/volume/stress_cases.hpp"
 
@@ -23,7 +24,12 @@ struct LoadedData {
   std::optional<StressScene> stress;  // without its voxels
   scene::VoxelFormat native = scene::VoxelFormat::f32;
   bool fits_halves = false;
+  std::array<double, 2> used{0, 1};  // see scene::Volume::used
   std::shared_ptr<const scene::VoxelGrid> grid;
+
+  // Returns scene::empty_image_note() for these data. It is empty for a stress case, because some
+  // stress cases have an empty image on purpose.
+  [[nodiscard]] std::string empty_image_note(const scene::TransferFunction& function) const;
 };
 
 // Chooses the voxel format, given the size of the volume and the format that stores it without
@@ -42,8 +48,12 @@ class DataLoader {
   // Loads the volume. For a stress case, `stress` receives the other parts of its scene.
   [[nodiscard]] scene::Volume read(const measure::Configuration& configuration,
                                    std::optional<StressScene>& stress) const;
-  // Loads and encodes the volume. Calls `on_note` with each note of the file reader, which states
-  // what the reader guessed or left out. The result is valid until the next call.
+  // Returns lines that describe the volume, with the notes that `load` would report.
+  [[nodiscard]] std::vector<std::string> describe(
+      const measure::Configuration& configuration) const;
+  // Loads and encodes the volume. Calls `on_note` with each note: what the file reader guessed or
+  // left out, and whether the window misses nearly all values. The result is valid until the next
+  // call.
   const LoadedData& load(const measure::Configuration& configuration, const ChooseFormat& choose,
                          const OnNote& on_note);
 

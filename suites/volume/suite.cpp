@@ -13,10 +13,11 @@
 #include "measure/contract/pixel_history.hpp"
 #include "reference/open_counts.hpp"
 #include "reference/volume.hpp"
-#include "scene/data_summary.hpp"
 #include "scene/denormals.hpp"
 #include "scene/file_table.hpp"
+#include "scene/find_file.hpp"
 #include "scene/generators.hpp"
+#include "scene/raw_spec.hpp"
 #include "suites/volume/analytic_data.hpp"
 #include "suites/volume/factors.hpp"
 #include "suites/volume/frame_description.hpp"
@@ -62,7 +63,9 @@ class VolumeSuite final : public measure::SuiteWithTruth, public measure::RayRef
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>& precision) override;
   nlohmann::json describe(const Configuration& configuration) override;
-  std::vector<std::string> describe_data(const Configuration& configuration) override;
+  std::vector<std::string> describe_data(const Configuration& configuration) override {
+    return data_.describe(configuration);
+  }
   std::string data_hash(const Configuration& configuration) override;
   std::string limit_key(const Configuration& configuration) override;
   std::map<std::string, double> open_counts(
@@ -111,11 +114,8 @@ std::string_view VolumeSuite::plan_text(std::string_view plan) const {
 std::string VolumeSuite::missing_data(const Configuration& configuration) const {
   const std::string& data = configuration.at("data");
   if (analytic_data(data) || stress_data(data) || scene::is_present(data, folders_)) return {};
-  return fmt::format(
-      "data file '{}' was not found{}; set TRIPTYCH_DATA to the folder that contains volumes/",
-      data,
-      folders_.empty() ? ""
-                       : fmt::format(" in the current folder or in {}", folders_.front().string()));
+  const auto raw = scene::parse_raw_spec(data);
+  return scene::not_found_text(data, raw ? raw->file : data, folders_, "volumes");
 }
 
 // Resolves the levels `own` of a configuration whose data have been loaded.
@@ -127,9 +127,13 @@ scene::VolumeScene VolumeSuite::scene(const Configuration& configuration,
                                       const LoadedData& loaded) const {
   const OwnLevels levels = levels_of(configuration, loaded.stress);
   const auto [width, height] = levels.viewport();
+  scene::TransferFunction function = scene::without_denormals(levels.transfer_function(folders_));
+  if (const std::string note = loaded.empty_image_note(function); !note.empty()) {
+    report_loading({.what = loaded.data, .share = 1, .note = note});
+  }
   return {
       .grid = loaded.grid,
-      .transfer_function = scene::without_denormals(levels.transfer_function(folders_)),
+      .transfer_function = std::move(function),
       .camera = levels.camera(scene::bounding_box(*loaded.grid)),
       .width = width,
       .height = height,
@@ -306,13 +310,6 @@ nlohmann::json VolumeSuite::describe(const Configuration& configuration) {
   const LoadedData& loaded = load_native(configuration);
   return describe_frame(scene(configuration, loaded), levels_of(configuration, loaded.stress).ert(),
                         levels_of(configuration, loaded.stress).adapt());
-}
-
-std::vector<std::string> VolumeSuite::describe_data(const Configuration& configuration) {
-  std::optional<StressScene> stress;
-  scene::Volume volume = data_.read(configuration, stress);
-  volume.name = configuration.at("data");
-  return scene::summary_of(volume);
 }
 
 std::vector<record::Expectation> VolumeSuite::expectations(const Configuration& configuration) {

@@ -71,7 +71,9 @@ TEST(Pdb, FramesAreModels) {
   const std::string text =
       "MODEL        1\n" + atom + "ENDMDL\nMODEL        2\n" + atom + atom + "ENDMDL\n";
   EXPECT_EQ(load("a.pdb", text).count(), 1U);
+  EXPECT_EQ(load("a.pdb", text).facts.frames, 2U);
   EXPECT_EQ(load("a.pdb", text, ColourKind::rgba8, "@1").count(), 2U);
+  EXPECT_EQ(load("a.pdb", text, ColourKind::rgba8, "@1").facts.frame, 1U);
   expect_refused("a.pdb", text, "", "no frame 2; number of frames in the file: 2", "@2");
   expect_refused("a.pdb", pdb, "", "no frame 1; number of frames in the file: 1", "@1");
   expect_refused("a.pdb", text.substr(0, text.size() - 7), ":6", "expected ENDMDL");
@@ -99,7 +101,7 @@ TEST(Pdb, FramesWithoutModelsEndWithEnd) {
 TEST(Pdb, RejectsBrokenFiles) {
   expect_refused("a.pdb", replaced(pdb, "12.784", "12.x84"),
                  ":3:", "y in columns 39 to 46: expected a number, found '12.x84'");
-  expect_refused("a.pdb", pdb.substr(0, 190), ":3:", "expected an atom with its position");
+  expect_refused("a.pdb", pdb.substr(0, 190), ":3:", "the file ends here, so it may be truncated");
   expect_refused("a.pdb", replaced(pdb, "END\n", ""), ":5:", "expected END");
   expect_refused("a.pdb", "REMARK\n", ":1:", "found none");
   const std::string atom = "ATOM      1  CA  THR A   1       1.000   2.000   3.000\n";
@@ -199,6 +201,13 @@ TEST(Gro, TakesAnyNumberOfDecimalsAndFrames) {
   EXPECT_EQ(load("a.gro", fine).spheres[0][1], -118.00512F);
   EXPECT_EQ(load("a.gro", fine + gro, ColourKind::rgba8, "@1").count(), 4U);
   expect_refused("a.gro", fine + gro, "", "no frame 2; number of frames in the file: 2", "@2");
+  const ReadFacts facts = load("a.gro", fine + gro).facts;
+  EXPECT_EQ(facts.frames, 2U);
+  EXPECT_EQ(facts.box_edges, (BoxEdges{{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}}}));
+  // A broken frame does not prevent the frames before it from being read.
+  EXPECT_FALSE(load("a.gro", fine + "Title\nmany\n").facts.frames.has_value());
+  const std::string tilted = replaced(fine, " 1 2 3\n", " 1 2 3 4 5 6 7 8 9\n");
+  EXPECT_EQ(load("a.gro", tilted).facts.box_edges, (BoxEdges{{{1, 4, 5}, {6, 2, 7}, {8, 9, 3}}}));
 }
 
 TEST(Gro, RejectsBrokenFiles) {
@@ -220,6 +229,8 @@ const std::string xyz = "3\ncomment\nC 0 0 0\nO1 1 2 3 0.5 extra\n30 1e1 +2 -3\n
 TEST(Xyz, TakesSymbolsAndAtomicNumbers) {
   EXPECT_THAT(load("a.xyz", xyz).spheres,
               ElementsAre(Sphere{0, 0, 0, 1.7F}, Sphere{1, 2, 3, 1.52F}, Sphere{10, 2, -3, 1.39F}));
+  EXPECT_EQ(load("a.xyz", xyz).facts.frames, 1U);
+  EXPECT_EQ(load("a.xyz", xyz + xyz + "\n" + xyz, ColourKind::rgba8, "@1").facts.frames, 3U);
   EXPECT_EQ(load("a.XYZ", xyz + "1\n\nXx 5 5 5\n\n", ColourKind::rgba8, "@1").spheres[0][3], 2.F);
 }
 

@@ -68,6 +68,8 @@ TEST(LammpsDump, SelectsAFrame) {
                            "ITEM: UNITS\nlj\nITEM: TIME\n0.5\n" +
                            dump("x y z radius", "2", "2 0 0 1\n3 0 0 1\n");
   EXPECT_EQ(load("a.dump", text).count(), 1U);
+  EXPECT_EQ(load("a.dump", text).facts.frames, 2U);
+  EXPECT_EQ(load("a.dump", text, ColourKind::rgba8, "@1").facts.frames, 2U);
   EXPECT_EQ(load("a.dump", text, ColourKind::rgba8, "@1").spheres[1][0], 3);
   expect_refused("a.dump", text, "", "no frame 2; number of frames in the file: 2", "@2");
 }
@@ -85,7 +87,7 @@ TEST(LammpsDump, RejectsBrokenFiles) {
   expect_refused("a.dump", dump("id x y z", "2", "1 0 0 0\n1 1 0 0\n"),
                  ":11:", "atom number 1 appears twice");
   expect_refused("a.dump", dump("id x y z", "2", "1 0 0 0\n2 1 0\n"),
-                 ":11:", "expected 4 values, found 3");
+                 ":11:", "expected 4 values, found 3; the file ends here");
   expect_refused("a.dump", dump("id x y z", "2", "1 0 0 0\n2 1 zero 0\n"),
                  ":11:", "y: expected a number, found 'zero'");
   expect_refused("a.dump", dump("id x y z", "2", rows, "pp pp pp\n0 1\n0\n0 1\n"),

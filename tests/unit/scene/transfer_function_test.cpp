@@ -91,6 +91,28 @@ TEST(TransferFunction, ReadsRawBytes) {
   EXPECT_EQ(tf.entries[8], (std::array<float, 4>{0, 0, 0, 0}));
 }
 
+// If no value exceeds 1, the values are fractions, even if all of them are whole numbers.
+TEST(TransferFunction, WholeNumbersUpToOneAreFractions) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.tf", repeated("0 0 0 1\n", 256));
+  EXPECT_EQ(load_transfer_function(file.string()).entries[9][3], 1);
+  const auto bytes = folder.write("b.tf", repeated("0 0 0 1\n", 255) + "0 0 2 1\n");
+  EXPECT_EQ(load_transfer_function(bytes.string()).entries[9][3], 1 / 255.F);
+}
+
+TEST(TransferFunction, IsTransparentBelowItsFirstVisibleEntry) {
+  TransferFunction function;
+  function.entries[128][3] = 0.5F;
+  // The opacity rises from the centre of entry 127, at 127.5/256.
+  EXPECT_TRUE(is_transparent(function, 0, 127.5 / 256));
+  EXPECT_FALSE(is_transparent(function, 0, 127.6 / 256));
+  EXPECT_FALSE(is_transparent(function, 0.1, 0.9));
+  EXPECT_FALSE(is_transparent(function, 129.4 / 256, 1));
+  EXPECT_TRUE(is_transparent(function, 129.5 / 256, 1));
+  function.entries[0][3] = 1;
+  EXPECT_FALSE(is_transparent(function, 0, 0));
+}
+
 TEST(TransferFunction, BrokenFilesAreReportedWithTheirLine) {
   const TemporaryFolder folder;
   const auto expect = [&](const std::string& text, const std::string& message) {
@@ -103,6 +125,7 @@ TEST(TransferFunction, BrokenFilesAreReportedWithTheirLine) {
   expect("0 0 0 256\n", ":1: '256' is not a channel value; expected a number from 0 to 255");
   expect("0 0 0 -1\n", ":1: '-1'");
   expect("0 0 nan 1\n", ":1: 'nan'");
+  expect("# r g b a\n0,0,0,1\n", ":2: expected four values (R G B A) separated by blanks");
   expect(repeated("0 0 0 0\n", 255), ":255: the file ends after 255 entries; expected 256");
   expect(repeated("0 0 0 0\n", 257), ":257: the file has more than 256 entries");
   expect("", ": the file ends after 0 entries; expected 256");

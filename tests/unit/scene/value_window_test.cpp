@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "core/random.hpp"
+#include "scene/empty_image.hpp"
 
 namespace triptych::scene {
 namespace {
@@ -218,6 +219,55 @@ TEST(Window, ReportsWindowsThatDoNotFitTheVoxels) {
                         "row: mapping=log requires positive values");
   const Volume none = row_of<float>({std::nanf("")}, ScalarType::f32);
   expect_window_refused(none, "p1..p99", Mapping::linear, "row: no voxel has a finite value");
+}
+
+// 20000 small values, and one large value.
+Volume mostly_small() {
+  std::vector<float> values;
+  for (int i = 0; i < 20000; ++i) values.push_back(static_cast<float>(i % 100));
+  values.push_back(1300);
+  return row_of(values, ScalarType::f32);
+}
+
+TEST(Window, ThatMissesNearlyAllValuesIsNoted) {
+  using testing::AllOf;
+  using testing::ElementsAre;
+  using testing::HasSubstr;
+  using testing::IsEmpty;
+  EXPECT_THAT(mapped(mostly_small(), "5000..10000").facts.notes,
+              ElementsAre(AllOf(HasSubstr("100 % of the values are below the window 5000..10000"),
+                                HasSubstr("0..1300"), HasSubstr("p50 50"))));
+  EXPECT_THAT(mapped(mostly_small(), "100..1300").facts.notes,
+              ElementsAre(HasSubstr("99.995 % of the values are below")));
+  EXPECT_THAT(mapped(mostly_small(), "-9..-1").facts.notes,
+              ElementsAre(HasSubstr("100 % of the values are above")));
+  EXPECT_THAT(mapped(mostly_small(), "98..1300").facts.notes, IsEmpty());
+  // No value is inside the window, but values on both sides are visible.
+  EXPECT_THAT(mapped(mostly_small(), "50.2..50.8").facts.notes, IsEmpty());
+  EXPECT_THAT(mapped(mostly_small(), "full").facts.notes, IsEmpty());
+}
+
+TEST(Window, KnowsWhichPartOfItTheValuesUse) {
+  using testing::ElementsAre;
+  EXPECT_THAT(mapped(mostly_small(), "full").used, ElementsAre(0, 1));
+  EXPECT_THAT(mapped(mostly_small(), "5000..10000").used, ElementsAre(0, 0));
+  EXPECT_THAT(mapped(mostly_small(), "-1300..3900").used, ElementsAre(0.25, 0.5));
+  EXPECT_THAT(mapped(mostly_small(), "1..3000", Mapping::logarithmic).used[0], 0);
+}
+
+TEST(EmptyImage, IsNotedIfTheTransferFunctionIsTransparentForAllValues) {
+  using testing::HasSubstr;
+  TransferFunction function = load_transfer_function("haze");  // transparent below 1/8
+  const auto note = [&](const ValueMapping& values) { return empty_image_note(function, values); };
+  EXPECT_EQ(note({.lo = 0, .hi = 1300}), "");
+  EXPECT_THAT(note({.lo = 5000, .hi = 10000, .used = {0, 0}}),
+              HasSubstr("visible only for values between 5615.23 and 10000"));
+  EXPECT_THAT(note({.lo = 1, .hi = 65536, .mapping = Mapping::logarithmic, .used = {0, 0.1}}),
+              HasSubstr("between 3.91"));
+  EXPECT_EQ(note({.lo = 0, .hi = 100, .used = {0, 0.2}}), "");
+  EXPECT_THAT(note({.lo = 7, .hi = 7}), HasSubstr("all values are equal (7)"));
+  for (auto& entry : function.entries) entry[3] = 0;
+  EXPECT_THAT(note({.lo = 0, .hi = 1}), HasSubstr("all of its entries have the opacity 0"));
 }
 
 }  // namespace

@@ -460,8 +460,17 @@ TEST(FormatTables, HaveSeedsSecondReadersAndDocumentation) {
 TEST(FormatAdvice, NamesTheNearestFormat) {
   expect_volume_refused("a.dcm", "x", "dcm2niix -o . FOLDER");
   expect_volume_refused("a.xyzzy", "x", "expected .nrrd .nhdr .nii");
-  EXPECT_THAT(particle_advice(".xtc"), HasSubstr("gmx trjconv"));
-  EXPECT_THAT(particle_advice(""), HasSubstr("expected .pdb"));
+  EXPECT_THAT(particle_advice(".xtc", ""), HasSubstr("gmx trjconv"));
+  EXPECT_THAT(particle_advice("", ""), HasSubstr("the file name has no extension"));
+  EXPECT_THAT(particle_advice("", ""), HasSubstr("expected .pdb"));
+  expect_volume_refused("a", "x", "the file name has no extension");
+}
+
+TEST(FormatAdvice, NamesTheOtherSuite) {
+  expect_volume_refused("a.pdb", "x", "triptych render particles --set data=FILE");
+  expect_volume_refused("a", "ITEM: TIMESTEP\n", "format LAMMPS dump");
+  EXPECT_THAT(particle_advice(".nii", ""), HasSubstr("triptych render volume --set data=FILE"));
+  EXPECT_THAT(particle_advice("", "NRRD0004\n"), HasSubstr("format NRRD"));
 }
 
 }  // namespace
