@@ -96,7 +96,11 @@ class ConvergedRaycaster {
               .knot = along([&](const glm::dvec3& p) { return Table::knot_of(field_.at(p)); }),
               .gradient = {}};
     cuts_.assign({0.0});
-    cell.knot.append_knots(cuts_);
+    // A cut between two transparent intervals of the table would change nothing, because both
+    // pieces are left out.
+    cell.knot.append_knots(cuts_, [&](double knot) {
+      return !table_.transparent({knot, std::max(knot - 1.0, 0.0), std::min(knot + 1.0, 255.0)});
+    });
     cuts_.push_back(1.0);
     if (all_transparent(cell)) return;
     if (scene_.shading.enabled) {
@@ -145,8 +149,9 @@ class ConvergedRaycaster {
   // Returns whether everything behind the current point is invisible, regardless of the tolerance.
   [[nodiscard]] bool dark() const { return sum_.depth > 60.0; }
 
-  // Returns whether the piece from a to b is transparent. The piece is between two knots, where the
-  // same two entries are interpolated everywhere, so testing its middle is sufficient.
+  // Returns whether the piece from a to b is transparent. Testing its middle is sufficient, because
+  // the piece is between two cuts: either the same two entries are interpolated everywhere, or all
+  // entries are transparent.
   [[nodiscard]] bool transparent(const Cell& cell, double a, double b) const {
     const double middle = std::clamp(cell.knot(0.5 * (a + b)), 0.0, 255.0);
     return table_.transparent({middle, middle, middle});
@@ -226,13 +231,15 @@ class ConvergedRaycaster {
 
 }  // namespace
 
-Truth render_volume_converged(const scene::VolumeScene& scene, double tolerance, int threads) {
+Truth render_volume_converged(const scene::VolumeScene& scene, double tolerance, int threads,
+                              const OnRows& on_rows) {
   check(scene);
   return with_stored_type(scene.grid->format, [&]<typename Stored>(Stored) {
     const Field<Stored> field(*scene.grid, {});
     const Table table(scene.transfer_function, 0.0);
-    return draw(scene, threads,
-                [&] { return ConvergedRaycaster<Stored>(scene, tolerance, field, table); });
+    return draw(
+        scene, threads, [&] { return ConvergedRaycaster<Stored>(scene, tolerance, field, table); },
+        on_rows);
   });
 }
 

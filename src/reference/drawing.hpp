@@ -61,9 +61,10 @@ inline glm::dvec3 gradient_scale(const scene::VoxelGrid& grid) {
 }
 
 // Draws an image whose pixel (x, y) is caster(x, y). Every thread calls make_caster() to get its
-// own caster.
+// own caster. `on_rows` is called as in for_each_row().
 template <typename MakeCaster>
-Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_caster) {
+Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_caster,
+           const OnRows& on_rows = {}) {
   Truth truth;
   truth.width = scene.width;
   truth.height = scene.height;
@@ -72,20 +73,23 @@ Truth draw(const scene::VolumeScene& scene, int threads, const MakeCaster& make_
   truth.rgba.resize(4 * pixels);
   truth.bound.resize(pixels);
   std::vector<std::uint64_t> samples(static_cast<std::size_t>(scene.height));
-  for_each_row(scene.height, threads, [&]() -> RowWorker {
-    // A shared pointer is used because std::function requires a callable that can be copied.
-    auto caster = std::make_shared<decltype(make_caster())>(make_caster());
-    return [&truth, &samples, width, caster](int y) {
-      for (std::size_t x = 0; x < width; ++x) {
-        const Pixel pixel = (*caster)(static_cast<int>(x), y);
-        const std::size_t index = static_cast<std::size_t>(y) * width + x;
-        std::copy(pixel.rgba.begin(), pixel.rgba.end(),
-                  truth.rgba.begin() + static_cast<std::ptrdiff_t>(4 * index));
-        truth.bound[index] = pixel.bound;
-        samples[static_cast<std::size_t>(y)] += pixel.samples;
-      }
-    };
-  });
+  for_each_row(
+      scene.height, threads,
+      [&]() -> RowWorker {
+        // A shared pointer is used because std::function requires a callable that can be copied.
+        auto caster = std::make_shared<decltype(make_caster())>(make_caster());
+        return [&truth, &samples, width, caster](int y) {
+          for (std::size_t x = 0; x < width; ++x) {
+            const Pixel pixel = (*caster)(static_cast<int>(x), y);
+            const std::size_t index = static_cast<std::size_t>(y) * width + x;
+            std::copy(pixel.rgba.begin(), pixel.rgba.end(),
+                      truth.rgba.begin() + static_cast<std::ptrdiff_t>(4 * index));
+            truth.bound[index] = pixel.bound;
+            samples[static_cast<std::size_t>(y)] += pixel.samples;
+          }
+        };
+      },
+      on_rows);
   truth.samples = std::accumulate(samples.begin(), samples.end(), std::uint64_t{0});
   return truth;
 }

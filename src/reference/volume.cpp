@@ -175,12 +175,14 @@ RayHistory ray_history(const scene::VolumeScene& scene, const ErrorModel& model,
   });
 }
 
-Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model, int threads) {
+Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model, int threads,
+                    const OnRows& on_rows) {
   check(scene);
   return with_stored_type(scene.grid->format, [&]<typename Stored>(Stored) {
     const Field<Stored> field(*scene.grid, model);
     const Table table(scene.transfer_function, model.table_error);
-    return draw(scene, threads, [&] { return Raycaster<Stored>(scene, model, field, table); });
+    return draw(
+        scene, threads, [&] { return Raycaster<Stored>(scene, model, field, table); }, on_rows);
   });
 }
 

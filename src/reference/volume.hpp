@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/image.hpp"
+#include "reference/rows.hpp"
 #include "scene/volume_scene.hpp"
 
 namespace triptych::reference {
@@ -47,16 +48,16 @@ struct Truth {
 
 // Renders the scene. The work, which is about eight voxel fetches per sample, is distributed over
 // `threads` threads (0 means one for each hardware thread). The result does not depend on the
-// number of threads. Throws InputError if the scene has no volume, if the step is ≤ 0, or if the
-// data do not match the size of the volume.
+// number of threads. `on_rows` is called as in for_each_row(). Throws InputError if the scene has
+// no volume, if the step is ≤ 0, or if the data do not match the size of the volume.
 [[nodiscard]] Truth render_volume(const scene::VolumeScene& scene, const ErrorModel& model = {},
-                                  int threads = 0);
+                                  int threads = 0, const OnRows& on_rows = {});
 
 // Computes the limit of the image for step → 0, for this grid and table. Cuts each ray into pieces,
 // and halves each piece until halving changes its light by no more than the piece's share of
 // `tolerance`. The result is used to measure orders of convergence.
 [[nodiscard]] Truth render_volume_converged(const scene::VolumeScene& scene, double tolerance,
-                                            int threads = 0);
+                                            int threads = 0, const OnRows& on_rows = {});
 
 // The version of this renderer. It changes whenever its images may change.
 inline constexpr const char* volume_version = "3";

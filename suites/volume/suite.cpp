@@ -95,6 +95,13 @@ class VolumeSuite final : public measure::SuiteWithTruth, public measure::RayRef
   }
   scene::VolumeScene scene(const Configuration& configuration, const LoadedData& loaded) const;
   Judged judged(const Configuration& configuration, const std::map<std::string, double>& precision);
+  // Returns a function that reports the progress of rendering an image of the configuration.
+  [[nodiscard]] reference::OnRows reporting(measure::Rendering::Image image,
+                                            const Configuration& configuration) const {
+    return [this, image, viewport = configuration.at("viewport")](double share) {
+      report_rendering({.image = image, .viewport = viewport, .share = share});
+    };
+  }
 
   std::vector<std::filesystem::path> folders_;
   DataLoader data_{folders_};
@@ -241,7 +248,8 @@ VolumeSuite::Judged VolumeSuite::judged(const Configuration& configuration,
 accuracy::TruthPair VolumeSuite::truth(const Configuration& configuration,
                                        const std::map<std::string, double>& precision) {
   const auto [drawn, model] = judged(configuration, precision);
-  const reference::Truth truth = reference::render_volume(drawn, model);
+  const reference::Truth truth = reference::render_volume(
+      drawn, model, 0, reporting(measure::Rendering::Image::reference, configuration));
   return {.truth = truth.image(), .bound = truth.bound_image()};
 }
 
@@ -349,7 +357,8 @@ measure::Limit VolumeSuite::limit(const Configuration& configuration) {
   // float image with values up to 1.
   constexpr double tolerance = 0x1.0p-24;
   const reference::Truth truth = reference::render_volume_converged(
-      scene(configuration, load_native(configuration)), tolerance);
+      scene(configuration, load_native(configuration)), tolerance, 0,
+      reporting(measure::Rendering::Image::limit, configuration));
   return {.image = truth.image(), .uncertainty = truth.bound_image()};
 }
 

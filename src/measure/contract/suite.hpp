@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
@@ -111,6 +112,16 @@ class Suite {
   OnLoading on_loading_;
 };
 
+// The progress of rendering a reference image or a limit image on the host, which takes minutes for
+// a large image.
+struct Rendering {
+  enum class Image : std::uint8_t { reference, limit };
+  Image image = Image::reference;
+  std::string viewport;  // the level of the factor `viewport`
+  double share = 0;      // completed fraction of the image, in [0, 1]
+};
+using OnRendering = std::function<void(const Rendering&)>;
+
 // The limit image of a scene, to which its images converge as the sampling is refined. The
 // difference between an image and the limit image contains the sampling error and all other errors.
 struct Limit {
@@ -169,6 +180,18 @@ class SuiteWithTruth : public Suite {
   [[nodiscard]] virtual std::vector<record::Expectation> expectations(const Configuration&) {
     return {};
   }
+
+  // Sets the function that receives progress reports while a reference image or a limit image is
+  // rendered: with share 0 at the beginning and 1 at the end. An empty function disables them.
+  void set_on_rendering(OnRendering on_rendering) { on_rendering_ = std::move(on_rendering); }
+
+ protected:
+  void report_rendering(const Rendering& rendering) const {
+    if (on_rendering_) on_rendering_(rendering);
+  }
+
+ private:
+  OnRendering on_rendering_;
 };
 
 // Returns the factors of a configuration that determine the image, in canonical spelling:

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include "core/error.hpp"
 #include "random_scene.hpp"
@@ -50,6 +51,21 @@ TEST(Reference, SameBitsForAnyNumberOfThreads) {
       render_volume_converged(random_scene(1, Character::smooth, scene::VoxelFormat::u8), 1e-4, 5);
   EXPECT_EQ(limit.rgba, limit_of_many_threads.rgba);
   EXPECT_EQ(limit.bound, limit_of_many_threads.bound);
+}
+
+TEST(Reference, ReportsTheShareOfItsRows) {
+  const scene::VolumeScene scene = random_scene(1, Character::smooth, scene::VoxelFormat::u8);
+  std::vector<double> shares;
+  const auto add = [&](double share) { shares.push_back(share); };
+  static_cast<void>(render_volume(scene, some_model(), 1, add));
+  ASSERT_EQ(shares.size(), static_cast<std::size_t>(scene.height) + 1);
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_EQ(shares.back(), 1);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  shares.clear();
+  static_cast<void>(render_volume_converged(scene, 1e-4, 3, add));
+  EXPECT_EQ(shares.front(), 0);
+  EXPECT_EQ(shares.back(), 1);
 }
 
 TEST(Reference, AllOctantsMirrorEachOther) {
