@@ -35,25 +35,6 @@ StepError longest_step(double error, const StepLimits& limits, const ErrorOfStep
   return {.step = step, .error = known.at(step)};
 }
 
-StepError shortened_step(double step, double error, const StepLimits& limits,
-                         const ErrorOfStep& error_of) {
-  // In each iteration, the step is multiplied by a factor. The factor is a little smaller than
-  // required for an error of second order. It is at most `least_shortening`, so that the search
-  // ends, and at least `most_shortening`.
-  constexpr double margin = 0.97;
-  constexpr double least_shortening = 0.84;  // a quarter of an octave: about 2^(−1/4)
-  constexpr double most_shortening = 1.0 / 16;
-  for (;;) {
-    const double found = error_of(step);
-    if (found <= error || !(step > limits.shortest)) return {.step = step, .error = found};
-    const double wanted_factor = margin * std::sqrt(error / found);
-    const double factor = wanted_factor >= most_shortening
-                              ? std::min(wanted_factor, least_shortening)
-                              : most_shortening;
-    step = std::max(step * factor, limits.shortest);
-  }
-}
-
 ImageSize search_size(const ImageSize& image) {
   constexpr double most_pixels = 48.0 * 48.0;
   constexpr int shortest_side = 8;

@@ -11,11 +11,11 @@
 
 namespace triptych::accuracy {
 
-// How a requested error E is divided: 0.7 E for the step size, and E/4 for early termination (which
-// changes any channel by at most ε if rays end at transmittance ε, so ε = E/4). Merging
-// neighbouring samples into one may cause an error of E/32; a larger share would save little time,
-// because merging saves time mainly in regions in which it causes almost no error. In the worst
-// case, all errors add up. The remainder is reserved for rounding and storage.
+// How a search for a requested error E begins: with a step whose error is at most 0.7 E, and with
+// early termination at a transmittance of at most E/4, which changes any channel by at most E/4.
+// BudgetSearch (error_budget.hpp) then uses what the actual errors leave of E. Merging neighbouring
+// samples into one may cause an error of E/32; a larger share would save little time, because
+// merging saves time mainly in regions in which it causes almost no error.
 inline constexpr double step_share = 0.7;
 inline constexpr double termination_share = 0.25;
 inline constexpr double merging_share = 1.0 / 32;
@@ -34,13 +34,6 @@ using ErrorOfStep = std::function<double(double step)>;
 // tried, with its error. `error_of` is called about ten times.
 [[nodiscard]] StepError longest_step(double error, const StepLimits& limits,
                                      const ErrorOfStep& error_of);
-
-// Transfers a step that was found on one image to another image: finds the longest step of at most
-// `step` whose error is at most `error`. Each shortening assumes that the error is of second order.
-// The step may have to be shortened several times, because the error at edges is of lower order. If
-// no step is short enough, the result is the shortest step with its error.
-[[nodiscard]] StepError shortened_step(double step, double error, const StepLimits& limits,
-                                       const ErrorOfStep& error_of);
 
 // The size of the image on which the search runs, for an image of the given size. It has the same
 // aspect ratio and at most about 48² pixels, but each side has at least eight pixels or its

@@ -14,6 +14,7 @@
 #include "comparison/side_by_side.hpp"
 #include "comparison/store_diff.hpp"
 #include "core/quoting.hpp"
+#include "measure/request/error_answer.hpp"
 #include "measure/system/environment.hpp"
 #include "measure/worker/own_program.hpp"
 #include "report/exports/comparison_json.hpp"
@@ -82,13 +83,30 @@ std::vector<record::Record> records_of_all_devices(const record::Store& store,
   return records;
 }
 
+// Returns the records to be compared. If the run searched settings for a requested error
+// (`run --error`), these are only the answers, because the other records are candidates that would
+// not be used.
+std::vector<record::Record> records_to_compare(const record::Run& run,
+                                               std::vector<record::Record> records,
+                                               const Registry& registry, measure::Truths& truths) {
+  const auto searched = std::ranges::find_if(
+      run.begun, [](const record::RunStart& each) { return !each.requested_error.empty(); });
+  if (searched == run.begun.end() || records.empty()) return records;
+  const measure::ErrorGoal goal = measure::error_goal(
+      searched->requested_error, {searched->fixed.begin(), searched->fixed.end()});
+  return measure::answer_records(
+      measure::answer_error(records, registry.suite(records.front().suite), goal, truths));
+}
+
 // Prints, for the latest run of each plan, a table that compares all devices with each other.
 core::ExitCode print_api_table(const CompareArguments& arguments) {
   const ComparisonRequest& request = arguments.request;
   if (request.store.empty()) {
     throw core::InputError("--apis needs --store FILE; create the store with `triptych run`");
   }
-  const record::Store store = open_to_judge(request.store);
+  record::Store store = open_to_judge(request.store);
+  const Registry registry = make_registry();
+  measure::Truths truths(registry.find_suite(), store);
   std::set<std::string> requested_runs;
   for (const std::string& plan : request.plans) {
     requested_runs.insert(latest_run_of(store, plan, request.store));
@@ -96,7 +114,8 @@ core::ExitCode print_api_table(const CompareArguments& arguments) {
   core::Json json = core::Json::object();
   for (const record::Run& run : latest_runs(store)) {
     if (!requested_runs.empty() && !requested_runs.contains(run.id)) continue;
-    const auto table = comparison::side_by_side(records_of_all_devices(store, run));
+    const auto table = comparison::side_by_side(
+        records_to_compare(run, records_of_all_devices(store, run), registry, truths));
     if (!table) continue;
     json[run.plan] = report::to_json(*table);
     if (!arguments.json)

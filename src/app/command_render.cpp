@@ -8,19 +8,23 @@
 #include <vector>
 
 #include "app/arguments.hpp"
+#include "app/error_search.hpp"
 #include "app/one_frame.hpp"
 #include "app/one_pixel.hpp"
+#include "app/progress_printer.hpp"
 #include "app/terminal.hpp"
 #include "core/output_files.hpp"
 #include "core/temporary_folder.hpp"
 #include "measure/contract/dump.hpp"
-#include "measure/request/error_request.hpp"
+#include "measure/request/error_answer.hpp"
 #include "measure/request/fastest.hpp"
 #include "measure/run/in_process.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/worker/own_program.hpp"
 #include "report/exports/frame_folder.hpp"
+#include "report/screen/error_table.hpp"
 #include "report/words/finding.hpp"
+#include "report/words/requested_error.hpp"
 
 namespace triptych::app {
 namespace {
@@ -77,36 +81,38 @@ measure::Protocol render_protocol(const RenderArguments& arguments) {
   return protocol;
 }
 
-std::string measure_in(const Drawing& drawing, const measure::Plan& plan,
+std::string measure_in(const Drawing& drawing, const measure::Plan& plan, record::Store& store,
                        const measure::Protocol& protocol) {
+  // A single configuration needs no bar, but loading its data may take long.
+  const bool several = plan.configurations.size() > 1;
+  ProgressPrinter printer;
   const measure::RunResult result =
-      measure::run_plan(plan, drawing.devices, drawing.suite, drawing.store,
+      measure::run_plan(plan, drawing.devices, drawing.suite, store,
                         {.protocol = protocol,
                          .limit = std::chrono::seconds(drawing.arguments.limit_s),
                          .faults = measure::parse_faults(drawing.arguments.frame.faults),
                          .worker_command = measure::worker_command()},
-                        [](const measure::Progress& progress) {
+                        [&](const measure::Progress& progress) {
+                          if (several) return printer.print(progress);
                           if (progress.loading) show_loading(*progress.loading);
                         });
+  if (several) printer.end();
   return result.run;
 }
 
 Drawn draw_one(const Drawing& drawing, const measure::Plan& plan) {
-  const std::string run = measure_in(drawing, plan, render_protocol(drawing.arguments));
+  const std::string run =
+      measure_in(drawing, plan, drawing.store, render_protocol(drawing.arguments));
   return {run, drawing.store.records(run).at(0)};
 }
 
 // Finds the fastest technique by short trials, and draws with it. If the device cannot draw with
 // any technique, returns the result for the first technique.
 Drawn draw_fastest(const Drawing& drawing, const measure::Plan& plan) {
-  if (drawing.arguments.error) {
-    throw core::InputError(
-        "--error and technique=auto cannot be combined, because each selects the fastest frame by "
-        "its own rule; name a technique instead of auto");
-  }
   const auto [records, answers] =
       measure::find_fastest(plan, drawing.suite, [&](const measure::Plan& tried) {
-        return drawing.store.records(measure_in(drawing, tried, measure::brief_protocol));
+        return drawing.store.records(
+            measure_in(drawing, tried, drawing.store, measure::brief_protocol));
       });
   if (answers.empty() || answers.front().candidates.empty()) {
     return {records.at(0).run, records.at(0)};
@@ -116,22 +122,31 @@ Drawn draw_fastest(const Drawing& drawing, const measure::Plan& plan) {
   return {fastest.run, fastest};
 }
 
-// Draws with the fastest settings that meet the requested error. If the device could not draw
-// anything, the returned record contains the reason.
+// Draws with the fastest settings that meet the requested error. If the plan contains several
+// techniques (technique=auto), they compete with each other. If the device could not draw anything,
+// the returned record contains the reason.
 Drawn draw_within_error(const Drawing& drawing, const measure::Plan& plan,
                         measure::Truths& truths) {
-  const auto wanted = accuracy::parse_requested_error(*drawing.arguments.error);
-  const measure::ErrorRequest request =
-      measure::request_error(plan, drawing.suite, wanted, truths, [](const std::string&) {});
-  if (!request.unreachable.empty()) throw core::NotSupported(request.unreachable.front());
-  const std::string run = measure_in(drawing, request.plan, render_protocol(drawing.arguments));
-  const std::vector<record::Record> records = drawing.store.records(run);
-  const auto answers = measure::answer_error(records, drawing.suite, wanted, truths);
-  if (answers.empty()) return {run, records.at(0)};
-  if (answers.front().record == nullptr) {
-    throw core::NotSupported(describe(answers.front(), wanted));
+  const measure::ErrorGoal goal =
+      measure::error_goal(*drawing.arguments.error,
+                          names_of(PlanChoice{.set = drawing.arguments.frame.set}.overrides()));
+  const measure::ErrorRequest request = search_settings(
+      plan, drawing.suite, goal, truths, [&](const measure::Plan& trials, record::Store& store) {
+        return measure_in(drawing, trials, store, {.statistics = false, .timed = false});
+      });
+  if (!request.unreachable.empty()) {
+    throw core::NotSupported(report::words::text_of(request.unreachable.front(), goal.request));
   }
-  print_lines(describe(answers.front(), wanted) + "\n");
+  const std::string run =
+      measure_in(drawing, request.plan, drawing.store, render_protocol(drawing.arguments));
+  const std::vector<record::Record> records = drawing.store.records(run);
+  const auto answers = measure::answer_error(records, drawing.suite, goal, truths);
+  if (answers.empty()) return {run, records.at(0)};
+  // The first answer is the fastest.
+  if (answers.front().record == nullptr) {
+    throw core::NotSupported(report::words::text_of_missed(answers.front(), goal.request));
+  }
+  print_lines(report::error_tables(answers, goal.request));
   return {run, *answers.front().record};
 }
 
@@ -244,9 +259,9 @@ core::ExitCode render(const RenderArguments& arguments) {
   record::Store store(folder.path() / "render.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);
   const Drawing drawing{arguments, {device}, suite, store};
-  const auto [run, record] = !plan.automatic.empty() ? draw_fastest(drawing, plan)
-                             : arguments.error       ? draw_within_error(drawing, plan, truths)
-                                                     : draw_one(drawing, plan);
+  const auto [run, record] = arguments.error           ? draw_within_error(drawing, plan, truths)
+                             : !plan.automatic.empty() ? draw_fastest(drawing, plan)
+                                                       : draw_one(drawing, plan);
   record::require_measured(record);
   if (record.image.empty()) throw core::InputError(record.technique + " does not produce an image");
   const core::Image image = store.decoded_image(record.image);
@@ -264,9 +279,10 @@ void add_render_command(Commands& commands) {
   command.add_option("--out", arguments.frame.out, "Write the files to this folder");
   command.add_option(
       "--error", arguments.error,
-      "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max: choose the "
-      "fastest levels of the factors step, quadrature, ert, adapt and skip for which the error "
-      "relative to the scene's limit image (the exact ray integral) is at most E");
+      "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max (only for volumes): "
+      "search for fast levels of the factors step, quadrature, ert, adapt and skip for which the "
+      "error relative to the scene's limit image (the exact ray integral) is at most E; factors "
+      "named by --set keep their levels");
   add_limit_option(command, arguments.limit_s, "the frame");
   command.add_flag("--untimed", arguments.untimed,
                    "Draw only one frame for the image and one for the counters, and omit frame "

@@ -127,10 +127,11 @@ void add_run_commands(Commands& commands) {
   command
       .add_option(
           "--error", request.error,
-          "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max: measure only "
-          "levels of the factors step, quadrature, ert, adapt and skip for which the error "
-          "relative to the scene's limit image (the exact ray integral) is at most E, and report "
-          "the fastest levels")
+          "E or E:METRIC, where METRIC is rms (default), covered, p99.9 or max (only for volumes): "
+          "search for fast levels of the factors step, quadrature, ert, adapt and skip for which "
+          "the error relative to the scene's limit image (the exact ray integral) is at most E, "
+          "measure them, and compare the devices and techniques; factors named by --set keep "
+          "their levels, and the plan's levels of the others are ignored")
       ->excludes("--untimed");
 
   // Each call of `test-measure` measures one device. All calls add their records to one run,

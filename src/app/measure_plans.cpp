@@ -8,54 +8,25 @@
 #include <set>
 #include <utility>
 
+#include "app/error_search.hpp"
+#include "app/progress_printer.hpp"
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "app/version.hpp"
 #include "core/glob.hpp"
 #include "core/output_files.hpp"
-#include "measure/request/error_request.hpp"
+#include "measure/request/error_answer.hpp"
 #include "measure/request/fastest.hpp"
 #include "measure/system/compile_only.hpp"
 #include "measure/system/system_facts.hpp"
 #include "measure/worker/listing.hpp"
 #include "measure/worker/own_program.hpp"
-#include "report/screen/progress_log.hpp"
+#include "report/screen/error_table.hpp"
 #include "report/screen/unmeasured.hpp"
+#include "report/words/requested_error.hpp"
 
 namespace triptych::app {
 namespace {
-
-void write_raw(const std::string& text) {
-  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
-}
-
-// Prints the progress of a measurement to a log or a terminal.
-class ProgressPrinter {
- public:
-  ProgressPrinter(const MeasureRequest& request, std::vector<std::pair<std::string, int>> planned)
-      : log_({.width = terminal_width(),
-              .verbose = request.verbose,
-              .planned = std::move(planned)}) {}
-
-  void print(const measure::Progress& progress) {
-    if (progress.loading) {
-      if (!progress.loading->note.empty()) return show_note(*progress.loading);
-      return write_raw(log_.loading(progress.loading->what, progress.loading->share));
-    }
-    if (progress.record != nullptr) plan_ = progress.record->plan;
-    write_raw(log_.next({.plan = plan_,
-                         .device = progress.device,
-                         .done = progress.done,
-                         .total = progress.total,
-                         .left = progress.left,
-                         .record = progress.record}));
-  }
-  void end() { write_raw(log_.end()); }
-
- private:
-  report::ProgressLog log_;
-  std::string plan_;
-};
 
 // Rejects options that apply to a single plan if several plans are named: --set, because its
 // factors belong to one suite, and --error, because it is computed for the scenes of one plan.
@@ -194,17 +165,14 @@ std::vector<measure::RunResult> measure_on(const RunContext& context,
     planned.emplace_back(plan.name, planned_measurements(context, plan));
   }
   announce(context, planned);
-  ProgressPrinter printer(context.request, std::move(planned));
+  ProgressPrinter printer(context.request.verbose, std::move(planned));
   std::vector<measure::RunResult> results;
-  try {
+  {
     const LogSection section(context.request.ci, "Measuring");
     results =
         measure::run_plans(runs, context.devices, context.store,
                            [&](const measure::Progress& progress) { printer.print(progress); });
     printer.end();
-  } catch (...) {
-    printer.end();
-    throw;
   }
   for (const auto& [fault, only] : measure::unmatched_faults(runs, context.devices)) {
     print_err(
@@ -220,25 +188,50 @@ std::vector<measure::RunResult> measure_on(const RunContext& context,
   return results;
 }
 
+// Draws trial images for the search of --error. Returns the id of the run in `store`.
+std::string measure_trials(const RunContext& context, const measure::Plan& trials,
+                           record::Store& store) {
+  MeasureRequest request = context.request;
+  request.untimed = true;
+  request.resume = false;
+  const measure::RunOptions options = options_of(request, context.begun);
+  ProgressPrinter printer(request.verbose);
+  const measure::RunResult result = measure::run_plan(
+      trials, context.devices, context.registry.suite(trials.suite), store, options,
+      [&](const measure::Progress& progress) { printer.print(progress); });
+  printer.end();
+  return result.run;
+}
+
 // Measures the configurations that meet the requested error, and finds the fastest configuration
-// for each scene and device.
-MeasureResult measure_within_error(const RunContext& context, const measure::Plan& plan) {
-  const auto wanted = accuracy::parse_requested_error(*context.request.error);
+// for each scene, device and technique.
+MeasureResult measure_within_error(RunContext context, const measure::Plan& plan) {
+  const measure::ErrorGoal goal =
+      measure::error_goal(*context.request.error, names_of(context.request.choice.overrides()));
   measure::SuiteWithTruth& suite = context.registry.suite(plan.suite);
   measure::Truths truths(context.registry.find_suite(), context.store);
-  const measure::ErrorRequest error_request = measure::request_error(
-      plan, suite, wanted, truths, [](const std::string& what) { print_err("{}\n", what); });
+  const measure::ErrorRequest error_request = search_settings(
+      plan, suite, goal, truths, [&](const measure::Plan& trials, record::Store& store) {
+        return measure_trials(context, trials, store);
+      });
   MeasureResult measured{.error_met = error_request.unreachable.empty()};
   std::vector<record::Record> records;
   if (!error_request.plan.configurations.empty()) {
+    context.begun.requested_error = text_of(goal.request);
+    context.begun.fixed = {goal.fixed.begin(), goal.fixed.end()};
     measured.results = measure_on(context, {error_request.plan});
     records = context.store.records(measured.results.front().run);
   }
-  for (const measure::ErrorAnswer& answer : measure::answer_error(records, suite, wanted, truths)) {
-    print_lines(describe(answer, wanted) + "\n");
-    measured.error_met = measured.error_met && answer.record != nullptr;
+  const std::vector<measure::ErrorAnswer> answers =
+      measure::answer_error(records, suite, goal, truths);
+  print_lines(report::error_tables(answers, goal.request));
+  measured.error_met =
+      measured.error_met && std::ranges::all_of(answers, [](const measure::ErrorAnswer& answer) {
+        return answer.record != nullptr;
+      });
+  for (const measure::Unreachable& scene : error_request.unreachable) {
+    print_lines(report::words::text_of(scene, goal.request) + "\n");
   }
-  for (const std::string& scene : error_request.unreachable) print_out("{}\n", scene);
   return measured;
 }
 

@@ -7,6 +7,9 @@
 #include <set>
 #include <string>
 
+#include "report/screen/progress_log.hpp"
+#include "report/words/requested_error.hpp"
+
 namespace triptych::app {
 namespace {
 
@@ -59,6 +62,14 @@ void show_loading(const measure::Loading& loading) {
   } else {
     clear_line();
   }
+}
+
+void show_rendering(const measure::Rendering& rendering) {
+  static std::mutex mutex;
+  static report::ShareLog log({.width = terminal_width()});
+  const std::scoped_lock lock(mutex);
+  const std::string text = log.next(report::words::text_of(rendering), rendering.share);
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 
 }  // namespace triptych::app

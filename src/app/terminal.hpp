@@ -13,6 +13,7 @@
 
 #include "core/quoting.hpp"
 #include "measure/contract/loading.hpp"
+#include "measure/contract/suite.hpp"
 
 namespace triptych::app {
 
@@ -76,5 +77,7 @@ void show_progress(fmt::format_string<Args...> format, Args&&... args) {
 void show_note(const measure::Loading& loading);
 // Shows the progress of loading data. On a terminal, the line disappears when loading has ended.
 void show_loading(const measure::Loading& loading);
+// Shows the progress of rendering a reference image or a limit image, if this takes long.
+void show_rendering(const measure::Rendering& rendering);
 
 }  // namespace triptych::app

@@ -57,6 +57,9 @@ void to_json(Json& json, const RunStart& start) {
           {"devices", repaired(start.devices)},
           {"unusable", start.unusable}};
   if (!start.program.empty()) json["program"] = core::repaired_utf8(start.program);
+  if (start.requested_error.empty()) return;
+  json["error"] = core::repaired_utf8(start.requested_error);
+  json["fixed"] = repaired(start.fixed);
 }
 
 void from_json(const Json& json, RunStart& start) {
@@ -65,7 +68,9 @@ void from_json(const Json& json, RunStart& start) {
            .requested = json.at("asked"),
            .found = json.at("found"),
            .devices = json.at("devices"),
-           .unusable = json.at("unusable")};
+           .unusable = json.at("unusable"),
+           .requested_error = json.value("error", ""),
+           .fixed = json.value("fixed", std::vector<std::string>())};
 }
 
 std::vector<RunStart> joined(std::vector<RunStart> parts) {

@@ -38,6 +38,10 @@ struct RunStart {
   std::vector<std::string> found = {};      // ids of all devices that were found
   std::vector<std::string> devices = {};    // ids of the devices to be measured
   std::vector<Unusable> unusable = {};
+  // For `run --error`: the requested error as typed by the user (empty otherwise), and the factors
+  // whose levels the user fixed although --error would have chosen them.
+  std::string requested_error = {};
+  std::vector<std::string> fixed = {};
   bool operator==(const RunStart&) const = default;
 
   // requests_device() returns whether the command requested the device with this id. requests_api()

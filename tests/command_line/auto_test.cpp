@@ -62,16 +62,12 @@ TEST(Auto, DrawsTheFastest) {
   EXPECT_NE(program.read("o/frame.json").find("\"technique\": \"point\""), std::string::npos);
 }
 
-TEST(Auto, NeedsTimesAndExcludesAnError) {
+TEST(Auto, NeedsTimes) {
   const Program program;
   const Result untimed =
       program.run("run particles/quick --set technique=auto --device null:scripted --untimed");
   EXPECT_EQ(untimed.code, 3) << untimed.output;
   expect_found(untimed, "technique=auto needs frame times; remove --untimed");
-  const Result two =
-      program.run("render volume --device null:scripted --set technique=auto --error 0.1 --out o");
-  EXPECT_EQ(two.code, 3) << two.output;
-  expect_found(two, "--error and technique=auto cannot be combined");
   const Result unknown =
       program.run("render particles --device null:scripted --set culling=auto --out o");
   EXPECT_EQ(unknown.code, 3) << unknown.output;

@@ -16,9 +16,10 @@ namespace triptych::command_line {
 namespace {
 
 // Returns a script for devices that draw the limit images of the scenes with these data. The limit
-// image of a scene is the image to which its images converge as the step size decreases.
+// image of a scene is the image to which its images converge as the step size decreases. `more` is
+// added to the script.
 std::string drawing_the_limit(const Program& program, const std::vector<std::string>& data,
-                              const std::string& viewport) {
+                              const std::string& viewport, const std::string& more = "") {
   const auto suite = volume_suite::make_suite({});
   std::string images;
   for (const std::string& each : data) {
@@ -28,7 +29,7 @@ std::string drawing_the_limit(const Program& program, const std::vector<std::str
     core::write_exr(suite->limit(plan.configurations.at(0)).image, file);
     images += fmt::format(R"({}"*{}*": "{}")", images.empty() ? "" : ", ", each, file.string());
   }
-  return R"({"images": {)" + images + "}}";
+  return R"({"images": {)" + images + "}" + more + "}";
 }
 
 constexpr const char* blob = "generate:gaussian_blob:16";
@@ -38,14 +39,10 @@ TEST(Error, IsMetByTheFastestCandidate) {
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.001",
                                   drawing_the_limit(program, {blob}, "16"));
   EXPECT_EQ(kept.code, 0) << kept.output;
-  EXPECT_NE(kept.output.find("midpoint, the error caused by the step size is small enough at step"),
-            std::string::npos)
+  EXPECT_NE(kept.output.find("midpoint, the trials begin at step"), std::string::npos)
       << kept.output;
-  EXPECT_NE(
-      kept.output.find("preintegrated, the error caused by the step size is small enough at step"),
-      std::string::npos);
-  EXPECT_EQ(kept.output.find("own, the error caused by the step size"), std::string::npos)
-      << kept.output;
+  EXPECT_NE(kept.output.find("preintegrated, the trials begin at step"), std::string::npos);
+  EXPECT_EQ(kept.output.find("quadrature=own,"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("(limit 0.001:rms)"), std::string::npos) << kept.output;
   EXPECT_NE(kept.output.find("% of the error of an empty image, covered"), std::string::npos)
       << kept.output;
@@ -100,8 +97,7 @@ TEST(Error, OutOfReachInOneSceneStillMeasuresTheOthers) {
   EXPECT_NE(
       result.output.find(
           "data=generate:mandelbulb:16,technique=raycast,viewport=16: the error caused by the "
-          "step size may be at most 7e-13, which is a share of the requested error "
-          "1e-12:max, but it is larger with every step size; the smallest error is"),
+          "step size is too large with every step: the smallest error is "),
       std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find("(limit 1e-12:max)"), std::string::npos) << result.output;
@@ -115,13 +111,54 @@ TEST(Error, HasOneResultWhateverSamplersTheCandidatesUse) {
   const Result kept = program.run("run volume/quick " + std::string(tiny) + " --error 0.0001",
                                   drawing_the_limit(program, {blob}, "16"));
   EXPECT_EQ(kept.code, 0) << kept.output;
-  EXPECT_NE(kept.output.find("cells, the error caused by the step size is small enough at step"),
-            std::string::npos)
-      << kept.output;
-  const std::string answer = ": adapt=0, ";
+  EXPECT_NE(kept.output.find("cells, the trials begin at step"), std::string::npos) << kept.output;
+  const std::string answer = "null:scripted  raycast";
   const std::size_t first = kept.output.find(answer);
   EXPECT_NE(first, std::string::npos) << kept.output;
   EXPECT_EQ(kept.output.find(answer, first + 1), std::string::npos) << kept.output;
+}
+
+// `render --error` draws with the fastest technique, too.
+TEST(Error, LetsTechniquesCompete) {
+  const Program program;
+  const Result result = program.run(
+      fmt::format("render volume --device null:scripted --set technique=auto --set data={} --set "
+                  "viewport=16 --error 0.001 --out o",
+                  blob),
+      drawing_the_limit(program, {blob}, "16",
+                        R"(, "factors": {"technique=raycast_fragment,*": 0.25})"));
+  EXPECT_EQ(result.code, 0) << result.output;
+  EXPECT_NE(result.output.find("fastest: null:scripted with raycast_fragment, "), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("null:scripted  raycast "), std::string::npos) << result.output;
+  EXPECT_NE(program.read("o/frame.json").find("\"technique\": \"raycast_fragment\""),
+            std::string::npos);
+}
+
+TEST(Error, KeepsTheLevelsThatTheUserSets) {
+  const Program program;
+  const Result result =
+      program.run(fmt::format("render volume --device null:scripted --set data={} --set "
+                              "viewport=16 --set step=0.3 --set skip=none --error 0.001 --out o",
+                              blob),
+                  drawing_the_limit(program, {blob}, "16"));
+  EXPECT_EQ(result.code, 0) << result.output;
+  const std::string frame = program.read("o/frame.json");
+  EXPECT_NE(frame.find("\"step\": \"0.3\""), std::string::npos) << frame;
+  EXPECT_NE(frame.find("\"skip\": \"none\""), std::string::npos) << frame;
+}
+
+// The other records of the store are slower candidates, which would not be used.
+TEST(Error, IsComparedByItsAnswersOnly) {
+  const Program program;
+  const std::string script =
+      drawing_the_limit(program, {blob}, "16", R"(, "devices": [1, 1.7], "base_ns": 1e6)");
+  const Result run = program.run(
+      "run volume/quick " + std::string(tiny) + " --error 0.001 --store e.sqlite", script);
+  ASSERT_EQ(run.code, 0) << run.output;
+  const Result table = program.run("compare --apis --store e.sqlite --json", script);
+  EXPECT_EQ(table.code, 0) << table.output;
+  EXPECT_NE(table.output.find("\"configurations\": 1,"), std::string::npos) << table.output;
 }
 
 TEST(Error, IsRejectedForStressCasesBecauseTheyHaveNoLimit) {
@@ -162,6 +199,8 @@ TEST(Error, MustBePositiveAndNeedsASuiteWithAStep) {
       << unknown.output;
   const Result particles = program.run("run particles/quick --device 'null:*' --error 0.01");
   EXPECT_EQ(particles.code, 3) << particles.output;
+  EXPECT_NE(particles.output.find("--error works only for volumes"), std::string::npos)
+      << particles.output;
   EXPECT_NE(particles.output.find("suite particles has no factor step"), std::string::npos)
       << particles.output;
 }

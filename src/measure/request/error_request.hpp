@@ -1,13 +1,14 @@
 #pragma once
-// Implements `--error E`: finds the configurations that meet a requested error and, after they have
-// been measured, the fastest of them.
+// Implements the search of `--error E`: finds the configurations that meet a requested error and
+// may be the fastest.
 
 #include <functional>
-#include <string>
 #include <vector>
 
-#include "accuracy/requested_error.hpp"
+#include "core/image.hpp"
 #include "measure/plan/plan.hpp"
+#include "measure/request/error_goal.hpp"
+#include "measure/request/error_progress.hpp"
 #include "measure/truth/truths.hpp"
 #include "record/record.hpp"
 
@@ -15,46 +16,36 @@ namespace triptych::measure {
 
 struct ErrorRequest {
   Plan plan;  // contains the candidates for all scenes in which the error can be met
-  // One line for each scene in which no candidate can meet the requested error, with the reason and
-  // the smallest error that is possible in the scene.
-  std::vector<std::string> unreachable;
+  std::vector<Unreachable> unreachable;
 };
 
-// Chooses the levels of `step`, `quadrature`, `ert`, `skip` and `adapt`. The plan's levels of these
-// factors are ignored.
-//
-// For each scene of the plan, the result contains one candidate for every quadrature and skipping
-// mode. The requested error is divided into shares for the step size, for early ray termination and
-// for merging samples. The step of a candidate is the longest step with which the error of the
-// reference image, computed at the candidate's sample positions, stays within the share for the
-// step size. If samples can be merged, there is one more candidate, which merges them. The step is
-// estimated with a small image (accuracy::search_size()), and then shortened until the error of the
-// complete image stays within the share.
-//
-// Throws InputError for a suite without these factors.
-[[nodiscard]] ErrorRequest request_error(const Plan& plan, SuiteWithTruth& suite,
-                                         const accuracy::RequestedError& request, Truths& truths,
-                                         const std::function<void(const std::string&)>& report);
+// Draws each configuration of the plan on every device, without measuring times, and calls `use`
+// for each record that has an image.
+using UseTrial = std::function<void(const record::Record&, const core::Image&)>;
+using DrawTrials = std::function<void(const Plan&, const UseTrial& use)>;
 
-// The fastest record of one scene and device whose image meets the error.
-struct ErrorAnswer {
-  std::string device;
-  std::string scene;                       // the factors that the request did not choose
-  const record::Record* record = nullptr;  // null if no candidate meets the error on the device
-  accuracy::ErrorsByMetric errors;         // errors of the record, or of the closest candidate
-  accuracy::ErrorsByMetric empty_image;    // errors of an empty image
-  double time_ns = 0;                      // median frame time of the record
+struct ErrorSearch {
+  SuiteWithTruth& suite;
+  const ErrorGoal& goal;
+  Truths& truths;
+  DrawTrials draw;
+  std::function<void(const ErrorProgress&)> report;
 };
-// Returns the answers for all scenes and devices in the records, which must outlive the result. If
-// a device drew no candidate for a scene although the scene was not skipped, its answer contains no
-// numbers.
-[[nodiscard]] std::vector<ErrorAnswer> answer_error(const std::vector<record::Record>& records,
-                                                    const Suite& suite,
-                                                    const accuracy::RequestedError& request,
-                                                    Truths& truths);
 
-// Returns the answer as one line of text.
-[[nodiscard]] std::string describe(const ErrorAnswer& answer,
-                                   const accuracy::RequestedError& request);
+// Chooses the levels of the error_factors that are not fixed. The plan's levels of the other
+// error_factors are ignored.
+//
+// For each scene of the plan and each quadrature, the search begins with the longest step with
+// which the error of a small reference image (accuracy::search_size()) is at most
+// accuracy::step_share of the requested error, and with a threshold of early ray termination that
+// can cause at most accuracy::termination_share of it. All devices then draw complete images with
+// these settings, and with longer steps and larger thresholds, as long as the measured error of the
+// image permits (accuracy::BudgetSearch). For each device, the settings with the fewest samples
+// become candidates: one for every skipping mode. If samples can be merged, there is one more
+// candidate, which merges them.
+//
+// The result depends only on images and counters, so it is the same for every call. Throws
+// InputError for a suite without the error_factors, and for a plan that counts instructions.
+[[nodiscard]] ErrorRequest request_error(const Plan& plan, const ErrorSearch& search);
 
 }  // namespace triptych::measure

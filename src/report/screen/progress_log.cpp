@@ -31,6 +31,12 @@ std::string outcome_of(const record::Record& record) {
                      words::text_of(record.reason));
 }
 
+// Returns a title and a bar, such as "volume/quick [#####...............]".
+std::string bar_of(std::string_view title, int done, int total, int cells = 20) {
+  const int full = total > 0 ? cells * done / total : 0;
+  return fmt::format("{} [{:#>{}}{:.>{}}]", title, "", full, "", cells - full);
+}
+
 bool is_failure(const record::Record& record) {
   return record.outcome != record::Outcome::measured && record.outcome != record::Outcome::skipped;
 }
@@ -109,15 +115,14 @@ std::string ProgressLog::line_for(const Step& step) {
 }
 
 std::string ProgressLog::bar(const Step& step) const {
-  const int cells = has_several_plans() ? 10 : 20;
-  const int full = step.total > 0 ? cells * step.done / step.total : 0;
   const std::chrono::seconds left = time_left(step);
   const std::string number =
       has_several_plans()
           ? fmt::format("plan {}/{} ", number_of_plan(step.plan), options_.planned.size())
           : std::string();
   const std::string text =
-      fmt::format("{}{} [{:#>{}}{:.>{}}] {}/{} {}{}", number, step.plan, "", full, "", cells - full,
+      fmt::format("{}{} {}/{} {}{}", number,
+                  bar_of(step.plan, step.done, step.total, has_several_plans() ? 10 : 20),
                   step.done, step.total, step.device,
                   left.count() > 0 ? ", " + rounded_duration(left) + " left" : std::string());
   return fitted(text);
@@ -179,6 +184,44 @@ std::string ProgressLog::loading(std::string_view data, double share) {
     return std::string(clear_line) + (share < 1 ? fitted(text) : std::string());
   }
   return heartbeat_.due() ? core::printable(text) + "\n" : std::string();
+}
+
+ShareLog::ShareLog(ProgressLog::Options options)
+    : options_(std::move(options)), started_(options_.now()), last_(started_) {}
+
+std::string ShareLog::next(std::string_view what, double share) {
+  const auto now = options_.now();
+  if (share <= 0) {
+    started_ = now;
+    last_ = now;
+    return {};
+  }
+  const bool is_shown = std::exchange(shown_, shown_ && share < 1);
+  if (share >= 1) return is_shown && options_.width > 0 ? std::string(clear_line) : std::string();
+  // A terminal is updated once a second. A log gets a line when the work has taken as long as
+  // `first_log_line`, and then each time that the duration has doubled.
+  constexpr auto terminal_interval = std::chrono::seconds(1);
+  constexpr auto first_log_line = std::chrono::seconds(10);
+  const bool terminal = options_.width > 0;
+  const auto since = now - last_;
+  if (since < (terminal ? ProgressLog::Clock::duration(terminal_interval)
+                        : std::max<ProgressLog::Clock::duration>(first_log_line, last_ - started_)))
+    return {};
+  last_ = now;
+  shown_ = true;
+  const auto left =
+      std::chrono::duration_cast<std::chrono::seconds>((now - started_) * ((1 - share) / share));
+  const std::string time_left = rounded_duration(left + std::chrono::seconds(1));
+  if (!terminal) {
+    return core::printable(
+               fmt::format("{}: {:.0f} %, about {} left", what, 100 * share, time_left)) +
+           "\n";
+  }
+  return std::string(clear_line) +
+         core::printable(
+             fmt::format("{} {:.0f} %, {} left", bar_of(what, static_cast<int>(100 * share), 100),
+                         100 * share, time_left),
+             options_.width > 1 ? options_.width - 1 : 1);
 }
 
 std::string ProgressLog::end() {

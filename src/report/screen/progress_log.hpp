@@ -94,6 +94,23 @@ class ProgressLog {
   std::map<std::pair<std::string, std::string>, Tally> tallies_;  // counts by plan and device
 };
 
+// Reports the progress of work of which only the completed share is known, such as rendering a
+// large image. Work that takes less than a second is not reported.
+class ShareLog {
+ public:
+  explicit ShareLog(ProgressLog::Options options);
+
+  // Returns the output when this share of the work, in [0, 1], is complete; it may be empty. A
+  // share of 0 begins a new work. A share of 1 removes the bar from a terminal.
+  [[nodiscard]] std::string next(std::string_view what, double share);
+
+ private:
+  ProgressLog::Options options_;
+  ProgressLog::Clock::time_point started_;
+  ProgressLog::Clock::time_point last_;
+  bool shown_ = false;
+};
+
 // Formats a duration, rounded up: "34 s", "12 min", "3 h".
 [[nodiscard]] std::string rounded_duration(std::chrono::seconds time);
 

@@ -48,28 +48,6 @@ TEST(LongestStep, IsAbsentIfTheShortestIsNotEnough) {
   EXPECT_FALSE(longest_step(1e-3, {}, [](double) { return std::nan(""); }).error <= 1e-3);
 }
 
-// The step size was found using only some of the pixels. It may be too long for the whole image, so
-// it has to be shortened.
-TEST(ShortenedStep, MeetsTheErrorAndIsOnlySlightlyShorter) {
-  for (const double order : {1.0, 2.0, 4.0}) {
-    int calls = 0;
-    const auto found = shortened_step(1, 1e-3, {}, [&](double step) {
-      ++calls;
-      return 4e-3 * std::pow(step, order);
-    });
-    EXPECT_LE(found.error, 1e-3) << order;
-    EXPECT_GE(found.error, 1e-4) << order;
-    EXPECT_LE(calls, 8) << order;
-  }
-}
-
-TEST(ShortenedStep, IsUnchangedIfItMeetsTheErrorAndEndsAtTheShortest) {
-  EXPECT_EQ(shortened_step(3, 1e-3, {}, [](double) { return 9e-4; }).step, 3);
-  const auto hopeless = shortened_step(3, 1e-3, {}, [](double) { return std::nan(""); });
-  EXPECT_EQ(hopeless.step, 1.0 / 64);
-  EXPECT_FALSE(hopeless.error <= 1e-3);
-}
-
 TEST(SearchSize, KeepsRaysOnBothAxes) {
   const auto size = [](int width, int height) {
     const ImageSize found = search_size({width, height});

@@ -148,6 +148,38 @@ TEST_F(ProgressLogTest, EscapesNames) {
   }
 }
 
+TEST_F(ProgressLogTest, ALongImageHasABarOrSparseLines) {
+  for (const std::size_t width : {0U, 80U}) {
+    ShareLog log({.width = width, .now = [this] { return now; }});
+    std::string text = log.next("computing", 0);
+    for (int second = 1; second <= 100; ++second) {
+      now += seconds(1);
+      text += log.next("computing", second / 100.0);
+    }
+    if (width == 0) {
+      // After 10, 20, 40 and 80 seconds.
+      EXPECT_EQ(lines_of(text), 4) << text;
+      EXPECT_TRUE(text.starts_with("computing: 10 %, about 91 s left\n")) << text;
+    } else {
+      EXPECT_EQ(lines_of(text), 0) << text;
+      EXPECT_THAT(text, HasSubstr("\r\033[Kcomputing [##########..........] 50 %, 51 s left"));
+      EXPECT_TRUE(text.ends_with("\r\033[K"));
+    }
+  }
+}
+
+TEST_F(ProgressLogTest, AShortImageIsNotReported) {
+  for (const std::size_t width : {0U, 80U}) {
+    ShareLog log({.width = width, .now = [this] { return now; }});
+    for (int image = 0; image < 100; ++image) {
+      EXPECT_EQ(log.next("computing", 0), "");
+      now += std::chrono::milliseconds(500);
+      EXPECT_EQ(log.next("computing", 0.5), "");
+      EXPECT_EQ(log.next("computing", 1), "");
+    }
+  }
+}
+
 TEST(RoughTime, IsRoundedUp) {
   EXPECT_EQ(rounded_duration(seconds(119)), "119 s");
   EXPECT_EQ(rounded_duration(seconds(121)), "3 min");
