@@ -30,6 +30,8 @@
 //     "sleep": false,             true: a frame really takes its reported time
 //     "filter_weight_error": 0,   error of the hardware sampler
 //     "images": {"GLOB": "FILE.exr"},           files that replace the pattern
+//     "leaks": {"GLOB": BYTES},   memory that each prepare of matching work allocates and never
+//     frees "caches": {"GLOB": BYTES},  memory that only the first prepare of the same work keeps
 //     "failures": [{"kind": "crash", "at": "frame", "frame": 2, "only": "GLOB", "once": "FILE",
 //                   "after": ["GLOB"]}]
 //   }
@@ -112,6 +114,9 @@ struct Script {
   double filter_weight_error = 0;
   // Glob → EXR file; the first match is used.
   std::vector<std::pair<std::string, std::string>> images;
+  // Glob → bytes of memory; the first match is used.
+  std::vector<std::pair<std::string, double>> leaks;
+  std::vector<std::pair<std::string, double>> caches;
   std::vector<Failure> failures;  // the first match is used
 
   std::shared_ptr<CallLog> log;                           // null: calls are not logged

@@ -43,6 +43,17 @@ double factor_of(const Script& script, const std::string& subject) {
   return 1;
 }
 
+// Allocates memory for the first glob that matches, and keeps it until the process ends.
+void keep_memory(const std::vector<std::pair<std::string, double>>& sizes,
+                 const std::string& subject) {
+  static std::vector<std::vector<char>> kept;
+  for (const auto& [glob, bytes] : sizes) {
+    if (!matches(glob, subject)) continue;
+    kept.emplace_back(static_cast<std::size_t>(bytes), '\1');
+    return;
+  }
+}
+
 double frame_ns(const Script& script, const measure::Work& work, double device_factor,
                 const std::string& subject, int frame) {
   double ns = device_factor * (script.base_ns + script.ns_per_sample * samples_of(work));
@@ -194,6 +205,8 @@ class NullDevice final : public measure::Device {
     if (const auto reason = unsupported(work)) throw core::NotSupported(*reason);
     std::string subject = describe(work);
     const std::size_t earlier = prepares_[subject]++;
+    keep_memory(script_->leaks, subject);
+    if (earlier == 0) keep_memory(script_->caches, subject);
     trigger_failure(*script_, Place::prepare, subject, static_cast<int>(earlier));
     record_prepared(subject);
     const auto& factors = script_->prepare_factors;

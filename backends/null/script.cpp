@@ -119,6 +119,14 @@ std::vector<double> parse_factors(const std::string& key, const Json& value) {
   return factors;
 }
 
+std::vector<std::pair<std::string, double>> parse_globs(const std::string& key, const Json& value,
+                                                        std::string_view expected) {
+  if (!value.is_object()) refuse(key, expected);
+  std::vector<std::pair<std::string, double>> numbers;
+  for (const auto& [glob, each] : value.items()) numbers.emplace_back(glob, number(each, key, 0));
+  return numbers;
+}
+
 // Returns false if no numeric key has this name.
 bool parse_number(const std::string& key, const Json& value, Script& script) {
   const std::array<std::pair<std::string_view, double Script::*>, 7> numbers{{
@@ -165,11 +173,12 @@ void parse_key(const std::string& key, const Json& value, Script& script) {
       script.images.emplace_back(glob, text(file, key));
     }
   } else if (key == "factors") {
-    if (!value.is_object())
-      refuse(key, "an object that maps globs to factors by which times are multiplied");
-    for (const auto& [glob, factor] : value.items()) {
-      script.factors.emplace_back(glob, number(factor, key, 0));
-    }
+    script.factors = parse_globs(
+        key, value, "an object that maps globs to factors by which times are multiplied");
+  } else if (key == "leaks") {
+    script.leaks = parse_globs(key, value, "an object that maps globs to sizes in bytes");
+  } else if (key == "caches") {
+    script.caches = parse_globs(key, value, "an object that maps globs to sizes in bytes");
   } else if (key == "failures") {
     if (!value.is_array()) refuse(key, "a list");
     for (const Json& each : value) script.failures.push_back(parse_failure(each));

@@ -18,7 +18,7 @@ enum class DeviceFaultKind : std::uint8_t {
   statistics_not_ready,  // pipeline statistics never become available
   teardown_crash,        // the worker process crashes while it closes the device
   teardown_hang,         // the worker hangs while it closes the device
-  memory_grows           // the worker's memory grows from configuration to configuration
+  memory_grows           // the driver does not free its memory (measure/run/memory_growth.hpp)
 };
 [[nodiscard]] std::string_view name_of(DeviceFaultKind kind);
 [[nodiscard]] DeviceFaultKind device_fault_kind(std::string_view name);  // throws InputError

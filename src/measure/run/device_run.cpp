@@ -161,30 +161,33 @@ void DeviceRun::set_identity(const Job& job, const std::string& key, record::Rec
   if (record.factors.empty()) record.factors = job.configuration;
 }
 
-// Detects a driver that does not free its memory: the worker's peak memory grows by more than
-// `most_growth` for most configurations. Smaller growth is normal, because a driver may keep a few
-// megabytes of compiled code for each new configuration. Peaks are compared, because reusing freed
-// memory does not raise the peak.
-void DeviceRun::check_memory_growth(std::uint64_t peak_bytes) {
-  constexpr std::size_t least_configurations = 8;
-  constexpr std::uint64_t most_growth = std::uint64_t{16} << 20U;
-  // If the peak is smaller than before, a new worker has been started.
-  if (!peaks_.empty() && peak_bytes < peaks_.back()) peaks_.clear();
-  peaks_.push_back(peak_bytes);
+// Draws configurations again if the worker's memory grows suspiciously, and records a device fault
+// if the driver does not free its memory. If the worker ends while it draws them, nothing is
+// decided.
+void DeviceRun::check_memory_growth(const Job& job, const record::Record& record) {
   const bool known = std::ranges::any_of(known_->faults, [](const record::DeviceFault& each) {
     return each.kind == record::DeviceFaultKind::memory_grows;
   });
-  if (known || peaks_.size() <= least_configurations) return;
-  std::vector<std::uint64_t> growth;
-  for (std::size_t i = 1; i < peaks_.size(); ++i) growth.push_back(peaks_[i] - peaks_[i - 1]);
-  std::ranges::nth_element(growth, growth.begin() + static_cast<std::ptrdiff_t>(growth.size() / 2));
-  const std::uint64_t median = growth[growth.size() / 2];
-  if (median <= most_growth) return;
+  // A configuration whose results are those of an equivalent one was not drawn.
+  if (known || !record.same_as.empty()) return;
+  if (!growth_.add(job, record.peak_memory_bytes)) return;
+  const Stopwatch stopwatch;
+  std::vector<std::uint64_t> resident;
+  for (const Job& repeat : growth_.repeats()) {
+    const auto reply = slot_.run_job(to_message(repeat), limit(), {});
+    const auto* answer = std::get_if<Answer>(&reply);
+    if (answer == nullptr) break;
+    resident.push_back(answer->resident_bytes);
+  }
+  repeats_ns_ += stopwatch.ns();
+  if (resident.size() <= MemoryGrowth::window) return;
+  const auto leak = growth_.leak(resident);
+  if (!leak) return;
   known_->faults.push_back(
       {.kind = record::DeviceFaultKind::memory_grows,
-       .detail = fmt::format("the worker's memory grew by {} MiB per configuration (median of {} "
-                             "configurations) and reached {} MiB",
-                             median >> 20U, growth.size(), peak_bytes >> 20U)});
+       .detail = fmt::format("when {} configurations were drawn a second time, the worker's memory "
+                             "grew by another {} MiB per configuration and reached {} MiB",
+                             MemoryGrowth::window, *leak >> 20U, resident.back() >> 20U)});
   context_.store.add_device(context_.run, *known_, clocks_);
 }
 
@@ -214,6 +217,7 @@ bool DeviceRun::ensure_worker() {
 }
 
 void DeviceRun::greet(const Hello& hello) {
+  growth_.restart();
   if (known_ && known_->key() != hello.device.key()) {
     throw core::InputError(
         fmt::format("the device {} has changed since run {} began (then: {}; now: {}); start a new "
@@ -241,12 +245,12 @@ ConfigurationResult DeviceRun::run_job(const Job& job, const OnLoading& on_loadi
   if (const auto* lost = std::get_if<Ended>(&reply))
     return {ended_record(lost->outcome, lost->reason)};
   Answer& answer = std::get<Answer>(reply);
-  check_memory_growth(answer.record.peak_memory_bytes);
   ConfigurationResult result{.record = std::move(answer.record),
                              .exr = std::move(answer.exr),
                              .listings = std::move(answer.listings),
                              .work_ns = answer.worker_ns - answer.record.overhead_ns};
   result.record.overhead_ns = stopwatch.ns() - result.work_ns;
+  if (slot_.occupied()) check_memory_growth(job, result.record);
   return result;
 }
 

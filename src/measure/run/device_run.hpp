@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "measure/run/ahead_compiler.hpp"
+#include "measure/run/memory_growth.hpp"
 #include "measure/run/runner.hpp"
 #include "measure/system/environment.hpp"
 #include "measure/system/interrupt.hpp"
@@ -61,10 +62,11 @@ class DeviceRun {
   // the device.
   void finish();
 
-  // Returns the time spent on opening the device, calibrating its clocks, and compiling ahead. It
-  // counts as time of the device, not as overhead.
+  // Returns the time spent on opening the device, calibrating its clocks, compiling ahead, and
+  // drawing configurations again after suspicious memory growth. It counts as time of the device,
+  // not as overhead.
   [[nodiscard]] double opening_ns() const {
-    return slot_.opening_ns() + (ahead_ ? ahead_->spent_ns() : 0);
+    return slot_.opening_ns() + (ahead_ ? ahead_->spent_ns() : 0) + repeats_ns_;
   }
 
  private:
@@ -79,8 +81,9 @@ class DeviceRun {
   // Returns the time limit for one configuration.
   [[nodiscard]] std::chrono::seconds limit() const;
   [[nodiscard]] ConfigurationResult run_job(const Job& job, const OnLoading& on_loading);
-  // Records a device fault if the worker's memory grows from configuration to configuration.
-  void check_memory_growth(std::uint64_t peak_bytes);
+  // Records a device fault if the driver does not free its memory. `record` is the result of the
+  // job that was just drawn.
+  void check_memory_growth(const Job& job, const record::Record& record);
   void adjust_counted_record(record::Record& record) const;
   // If the plan counts instructions but this machine cannot count them, returns the reason.
   // Otherwise returns nullopt.
@@ -93,7 +96,8 @@ class DeviceRun {
   std::optional<AheadCompiler> ahead_;  // set if the plan counts and the driver can compile ahead
   std::optional<record::Device> known_;
   std::vector<record::ClockTrust> clocks_;
-  std::vector<std::uint64_t> peaks_;  // the worker's peak memory after each configuration
+  MemoryGrowth growth_;
+  double repeats_ns_ = 0;  // time spent on drawing configurations again
 };
 
 }  // namespace triptych::measure

@@ -203,7 +203,8 @@ Message to_message(const Job& job) {
            {"name", job.name},
            {"configuration", job.configuration},
            {"protocol", to_json(job.protocol)},
-           {"faults", job.faults}},
+           {"faults", job.faults},
+           {"report_resident", job.report_resident}},
           {}};
 }
 
@@ -219,7 +220,8 @@ Message to_message(Answer answer) {
   return {{{"type", "answer"},
            {"record", answer.record},
            {"listings", answer.listings},
-           {"worker_ns", answer.worker_ns}},
+           {"worker_ns", answer.worker_ns},
+           {"resident_bytes", answer.resident_bytes}},
           std::move(answer.exr)};
 }
 
@@ -274,7 +276,8 @@ std::optional<Job> as_job(const Message& message) {
     return Job{.name = message.json.at("name"),
                .configuration = message.json.at("configuration").get<Configuration>(),
                .protocol = protocol_from(message.json.at("protocol")),
-               .faults = message.json.at("faults")};
+               .faults = message.json.at("faults"),
+               .report_resident = message.json.at("report_resident")};
   });
 }
 
@@ -293,7 +296,8 @@ std::optional<Answer> as_answer(Message message) {
     return Answer{.record = message.json.at("record").get<record::Record>(),
                   .worker_ns = message.json.at("worker_ns"),
                   .listings = message.json.at("listings"),
-                  .exr = std::move(message.binary)};
+                  .exr = std::move(message.binary),
+                  .resident_bytes = message.json.at("resident_bytes")};
   });
 }
 

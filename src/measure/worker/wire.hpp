@@ -21,6 +21,7 @@
 //                                  messages may precede it
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -92,6 +93,9 @@ struct Job {
   Configuration configuration;
   Protocol protocol;
   std::vector<std::string> faults;
+  // Makes the worker return its unused heap memory to the operating system after the job, and set
+  // Answer::resident_bytes.
+  bool report_resident = false;
 };
 
 struct Answer {
@@ -101,6 +105,7 @@ struct Answer {
   double worker_ns = 0;  // time between reading the job and completing the answer
   std::map<std::string, std::string> listings = {};  // disassemblies by content hash
   std::vector<std::byte> exr;
+  std::uint64_t resident_bytes = 0;  // memory in use after the job, if it was requested
 };
 
 // Requests that the worker prepare a configuration, and keep it in place of the previous

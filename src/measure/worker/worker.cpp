@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -32,17 +33,32 @@
 namespace triptych::measure {
 namespace {
 
+// Returns a size in bytes from /proc/self/status, such as that of "VmRSS:".
+std::optional<std::uint64_t> process_status_bytes(std::string_view name) {
+  std::ifstream lines("/proc/self/status");
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(name)) return std::stoull(line.substr(name.size())) * 1024;
+  }
+  return std::nullopt;
+}
+
 // Returns the peak memory of this process since its start. ru_maxrss is used only if /proc is
 // unavailable, because exec() does not reset it: a worker would begin with the peak of its
 // supervisor.
 std::uint64_t peak_memory_bytes() {
-  std::ifstream lines("/proc/self/status");
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with("VmHWM:")) return std::stoull(line.substr(6)) * 1024;
-  }
+  if (const auto peak = process_status_bytes("VmHWM:")) return *peak;
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+// Returns the resident memory of this process without the unused memory of its heap, which depends
+// on chance. Returns 0 if /proc is unavailable.
+std::uint64_t resident_memory_bytes() {
+#ifdef __GLIBC__
+  ::malloc_trim(0);
+#endif
+  return process_status_bytes("VmRSS:").value_or(0);
 }
 
 technique::Work kind_named(std::string_view name) {
@@ -167,6 +183,7 @@ class Worker {
       set_failure(answer, record::Outcome::failed, std::move(reason));
     });
     answer.record.peak_memory_bytes = peak_memory_bytes();
+    if (job.report_resident) answer.resident_bytes = resident_memory_bytes();
     answer.worker_ns = whole.ns();
     answer.record.overhead_ns =
         answer.worker_ns - answer.record.prepare_ns - measuring_ns_ + answer.record.overhead_ns;

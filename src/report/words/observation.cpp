@@ -93,7 +93,9 @@ std::string_view fault_text(record::DeviceFaultKind kind) {
     case record::DeviceFaultKind::teardown_hang:
       return "the driver hangs when the device is closed or the process exits";
     case record::DeviceFaultKind::memory_grows:
-      return "the memory usage of the process grows with each configuration";
+      return "the memory usage of the process grows each time the same configurations are drawn, "
+             "so the "
+             "driver does not free all of its memory";
   }
   return {};
 }
@@ -106,6 +108,19 @@ std::string device_fault(const Observation& what) {
     text += fmt::format("; the worker's last output: {}", what.fact("last_words"));
   }
   return text;
+}
+
+std::string no_baselines(const Observation& what) {
+  if (!what.detail.empty()) return fmt::format("{}: {}", what.fact("folder"), what.detail);
+  const std::string& folder = what.fact("folder");
+  std::string text = folder.empty() ? "there are no baselines for this plan"
+                                    : fmt::format("there are no baselines in {}", folder);
+  if (what.names.empty()) return text;
+  const std::string& checked = what.fact("checked");
+  text += checked.empty() ? std::string(", so nothing was checked")
+                          : fmt::format(", so only these checks were made: {}", checked);
+  return text +
+         fmt::format("; there is nothing to compare with for: {}", fmt::join(what.names, ", "));
 }
 
 std::string not_counted(const Observation& what) {
@@ -193,8 +208,7 @@ std::string sentence_of(const Observation& what) {
           "the input data have changed since this measurement (content hash {}, now {})",
           what.fact("hash"), what.fact("now"));
     case Cause::no_baselines:
-      return what.detail.empty() ? fmt::format("there are no baselines in {}", what.fact("folder"))
-                                 : fmt::format("{}: {}", what.fact("folder"), what.detail);
+      return no_baselines(what);
     case Cause::device_fault:
       return device_fault(what);
     case Cause::nothing_decided:

@@ -105,6 +105,7 @@ TEST(NullScript, AllKeys) {
           "ns_per_sample": 0, "warm_up_factor": 2, "prepare_factors": [3, 2], "noise": 0.1, "outlier_share": 0.2,
           "outlier_factor": 4, "device_over_wall": null, "counts": false, "sleep": true, "factors": {"*skip=none*": 1.5},
           "filter_weight_error": 0.5, "images": {"*": "x.exr"},
+          "leaks": {"*ball*": 4096}, "caches": {"*": 100},
           "failures": [{"kind": "hang", "at": "prepare", "only": "*ball*"},
                        {"kind": "crash", "frame": 2}, {"kind": "nan_image"}]})");
   EXPECT_EQ(script.seed, 3U);
@@ -116,6 +117,11 @@ TEST(NullScript, AllKeys) {
   ASSERT_EQ(script.factors.size(), 1U);
   EXPECT_EQ(script.factors[0].first, "*skip=none*");
   EXPECT_EQ(script.factors[0].second, 1.5);
+  ASSERT_THAT(script.leaks, SizeIs(1));
+  EXPECT_EQ(script.leaks[0].first, "*ball*");
+  EXPECT_EQ(script.leaks[0].second, 4096);
+  ASSERT_THAT(script.caches, SizeIs(1));
+  EXPECT_EQ(script.caches[0].second, 100);
   EXPECT_FALSE(script.device_over_wall);
   EXPECT_FALSE(script.counts);
   EXPECT_TRUE(script.sleep);
