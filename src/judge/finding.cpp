@@ -112,10 +112,11 @@ constexpr Names<Against, 6> against_names{{
     {Against::expectation, "expectation"},
 }};
 
-constexpr Names<Advice, 15> advice_names{{
+constexpr Names<Advice, 16> advice_names{{
     {Advice::none, "none"},
     {Advice::accept, "accept"},
     {Advice::accept_or_compare, "accept_or_compare"},
+    {Advice::accept_own, "accept_own"},
     {Advice::run_again, "run_again"},
     {Advice::resume, "resume"},
     {Advice::restore_data, "restore_data"},
@@ -232,6 +233,11 @@ bool is_about_waiver(const Observation& observation) {
   return observation.cause == Cause::unused_waiver ||
          observation.cause == Cause::waiver_of_no_test ||
          observation.cause == Cause::waiver_of_no_plan;
+}
+
+std::string_view topic_of(const Finding& finding) {
+  if (finding.cause == Cause::device_fault) return "driver";
+  return finding.cause == Cause::no_baselines ? "baselines" : name_of(finding.check);
 }
 
 bool ended_abnormally(const Finding& finding) {

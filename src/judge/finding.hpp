@@ -61,7 +61,7 @@ enum class Cause : std::uint8_t {
   other_plan,          // the run measured another version of the plan [<run> <plan> <hash> <now>]
   other_data,          // the data differ from the accepted data [<hash> <accepted>]
   data_changed,        // the data have changed since they were measured [<hash> <now>]
-  no_baselines,        // there are no baselines [<folder>]
+  no_baselines,        // there are no baselines [<folder>, <checked>; names: checks without them]
   nothing_decided,     // no check reached a verdict for the device
   device_fault,        // see record/device_fault.hpp [<kind> <subject> <last_words>, detail]
   // A waiver excuses nothing [<test> <device> <configuration> <expiry>, detail; "expired": 1 if it
@@ -158,6 +158,7 @@ enum class Advice : std::uint8_t {
   none,
   accept,                // accept the values with `command`
   accept_or_compare,     // accept the values with `command`, or compare two versions with --base
+  accept_own,            // accept a user's plan with `command`, in a folder of the user
   run_again,             // run the plan again
   resume,                // finish the run with `command`
   restore_data,          // restore the data and run again, or accept with `command`
@@ -269,6 +270,10 @@ struct Finding : Observation {
 // Like kind_of(const Observation&), but the string also depends on the subject, the excuse (with
 // the reason of a waiver), the second attempt and the injected faults.
 [[nodiscard]] std::string kind_of(const Finding& finding);
+// Returns the topic under which reports list the finding: the name of its check, or "driver" for a
+// fault of the device as a whole, or "baselines" if there are no baselines. Neither belongs to a
+// check.
+[[nodiscard]] std::string_view topic_of(const Finding& finding);
 // Returns whether the configuration of the finding ended with an error, a crash, a timeout or a
 // lost device.
 [[nodiscard]] bool ended_abnormally(const Finding& finding);

@@ -143,7 +143,11 @@ std::string Record::test_id(std::string_view check) const {
 }
 
 std::string plan_argument(const std::string& plan) {
-  return plan.find('/') == std::string::npos ? fmt::format("FOLDER/{}.yaml", plan) : plan;
+  return is_plan_file(plan) ? fmt::format("FOLDER/{}.yaml", plan) : plan;
+}
+
+bool is_plan_file(const std::string& plan) {
+  return plan.find('/') == std::string::npos;
 }
 
 std::optional<Summary> summarise(const std::vector<double>& samples) {

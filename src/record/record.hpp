@@ -192,6 +192,8 @@ struct Run {
 // run. SUITE/PLAN is unchanged. For a plan from a file, the result is FOLDER/NAME.yaml with a
 // placeholder for the folder, because only the name of the file is recorded.
 [[nodiscard]] std::string plan_argument(const std::string& plan);
+// Returns whether the plan is a user's YAML file rather than a plan of a suite.
+[[nodiscard]] bool is_plan_file(const std::string& plan);
 
 // Minimum, quartiles, median and maximum of samples, with linear interpolation between order
 // statistics. NaN does not count as a sample. summarise() returns nullopt if there are no samples.

@@ -1,10 +1,12 @@
 #include "report/overview.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "core/exit_code.hpp"
@@ -19,6 +21,7 @@ using judge::Check;
 using judge::Finding;
 using judge::GateResult;
 using judge::Verdict;
+using record::name_of;
 
 constexpr std::size_t max_named_devices = 3;
 
@@ -53,13 +56,45 @@ std::string places(const std::map<std::string, Tally>& by_device, Verdict verdic
   return rest > 0 ? text + fmt::format("; {} more devices", rest) : text;
 }
 
-CheckRow row_of(const words::CheckWords& kind, std::span<const GateResult* const> results) {
+// Returns whether a check was requested but not made, because there are no baselines.
+bool lacks_baselines(std::string_view topic, std::span<const GateResult* const> results) {
+  return std::ranges::any_of(results, [&](const GateResult* result) {
+    return std::ranges::any_of(result->findings, [&](const Finding& each) {
+      return each.cause == judge::Cause::no_baselines &&
+             std::ranges::find(each.names, topic) != each.names.end();
+    });
+  });
+}
+
+std::string_view word_of(Verdict verdict) {
+  if (verdict == Verdict::regression) return "FAIL";
+  return verdict == Verdict::waived ? "waived" : "no verdict";
+}
+
+// Returns the row of a topic that is not a check, or nullopt if it has no findings.
+std::optional<CheckRow> notice_of(const words::NoticeWords& kind,
+                                  std::span<const GateResult* const> results) {
+  std::optional<Verdict> worst;
+  std::set<std::string> places;
+  for (const GateResult* result : results) {
+    for (const Finding& finding : result->findings) {
+      if (judge::topic_of(finding) != kind.topic) continue;
+      worst = worst ? std::max(*worst, finding.verdict) : finding.verdict;
+      places.insert(finding.device.empty() ? result->plan : finding.device);
+    }
+  }
+  if (!worst) return std::nullopt;
+  return CheckRow{kind.topic, kind.label, word_of(*worst), *worst,
+                  fmt::format("{}: {}", kind.sentence, fmt::join(places, ", "))};
+}
+
+CheckRow row_of(const words::TopicWords& kind, std::span<const GateResult* const> results) {
   std::map<std::string, Tally> by_device;
   std::map<Verdict, std::size_t> all;
   std::size_t right = 0;
   for (const GateResult* result : results) {
     for (const Finding& finding : result->findings) {
-      if (finding.check != kind.check) continue;
+      if (judge::topic_of(finding) != kind.topic) continue;
       // A finding without a device is about the reference image. If it passes, it does not count as
       // an image that is within its bound.
       const bool about_reference = finding.check == Check::image && finding.device.empty();
@@ -73,22 +108,24 @@ CheckRow row_of(const words::CheckWords& kind, std::span<const GateResult* const
     }
   }
   const bool shown =  // times are shown but do not affect the verdict
-      kind.check == Check::timing &&
+      kind.topic == name_of(Check::timing) &&
       std::ranges::none_of(results, [](const GateResult* each) { return each->times_decided; });
-  CheckRow row{kind.check, kind.label, "–", Verdict::skipped, std::string(kind.none)};
+  CheckRow row{
+      kind.topic, kind.label, "–", Verdict::skipped,
+      std::string(lacks_baselines(kind.topic, results) ? words::nothing_to_compare : kind.none)};
   if (all[Verdict::regression] > 0) {
-    row = {kind.check, kind.label, "FAIL", Verdict::regression,
+    row = {kind.topic, kind.label, "FAIL", Verdict::regression,
            places(by_device, Verdict::regression, kind.wrong)};
   } else if (all[Verdict::cannot_judge] > 0) {
-    row = {kind.check, kind.label, "no verdict", Verdict::cannot_judge,
+    row = {kind.topic, kind.label, "no verdict", Verdict::cannot_judge,
            places(by_device, Verdict::cannot_judge, "not judged")};
     if (right > 0) row.sentence += fmt::format("; {} {}", right, kind.passed);
   } else if (right > 0 && shown) {
     row.sentence = fmt::format("{} shown, not judged", right);
   } else if (right > 0) {
-    row = {kind.check, kind.label, "pass", Verdict::pass, fmt::format("{} {}", right, kind.passed)};
+    row = {kind.topic, kind.label, "pass", Verdict::pass, fmt::format("{} {}", right, kind.passed)};
   } else if (all[Verdict::waived] > 0) {
-    row = {kind.check, kind.label, "waived", Verdict::waived, ""};
+    row = {kind.topic, kind.label, "waived", Verdict::waived, ""};
   }
   for (const auto& [verdict, word] : {std::pair(Verdict::waived, "waived"),
                                       {Verdict::improved, "better"},
@@ -100,10 +137,10 @@ CheckRow row_of(const words::CheckWords& kind, std::span<const GateResult* const
   return row;
 }
 
-bool was_checked(const words::CheckWords& kind, std::span<const GateResult* const> results) {
+bool was_checked(const words::TopicWords& kind, std::span<const GateResult* const> results) {
   return std::ranges::any_of(results, [&](const GateResult* result) {
-    return std::ranges::any_of(result->findings,
-                               [&](const Finding& each) { return each.check == kind.check; });
+    return std::ranges::any_of(
+        result->findings, [&](const Finding& each) { return judge::topic_of(each) == kind.topic; });
   });
 }
 
@@ -182,12 +219,18 @@ Overview overview(std::span<const GateResult* const> results) {
   all.drivers = tested_drivers(results);
   all.undecided = undecided_checks(results);
   all.circumstances = circumstances(results);
+  const auto add_row = [&](const words::TopicWords& kind) {
+    if (!kind.always && !was_checked(kind, results)) return;
+    CheckRow& row = all.rows.emplace_back(row_of(kind, results));
+    if (kind.topic != name_of(Check::image) || row.worst != Verdict::pass) return;
+    const std::string nearest = nearest_text(all.bounds);
+    if (!nearest.empty()) row.sentence += "; " + nearest;
+  };
   for (const words::CheckWords& kind : words::check_words) {
-    if (!kind.always && !was_checked(kind, results)) continue;
-    all.rows.push_back(row_of(kind, results));
-    const bool passed = all.rows.back().worst == Verdict::pass;
-    const std::string nearest = kind.check == Check::image ? nearest_text(all.bounds) : "";
-    if (passed && !nearest.empty()) all.rows.back().sentence += "; " + nearest;
+    add_row({name_of(kind.check), kind.label, kind.wrong, kind.passed, kind.none, kind.always});
+  }
+  for (const words::NoticeWords& kind : words::notice_words) {
+    if (auto row = notice_of(kind, results)) all.rows.push_back(std::move(*row));
   }
   return all;
 }

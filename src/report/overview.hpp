@@ -17,7 +17,7 @@
 namespace triptych::report {
 
 struct CheckRow {
-  judge::Check check;
+  std::string_view topic;    // "image", judge::topic_of
   std::string_view label;    // "Images"
   std::string_view verdict;  // "FAIL", "pass", "no verdict", "waived", "–"
   judge::Verdict worst;      // Verdict::skipped if there is no verdict

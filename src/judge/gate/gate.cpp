@@ -176,20 +176,6 @@ void report_other_data(const RunView& view, std::vector<Finding>& findings) {
   }
 }
 
-void report_no_baselines(const RunView& view, std::vector<Finding>& findings) {
-  const std::string& problem = view.baselines.problem();
-  AdviceWithCommand advice = view.accept_advice();
-  if (!problem.empty()) {
-    advice.advice = Advice::restore_baselines;
-    advice.command += " --drop";
-  }
-  findings.push_back(finding_about(view, *view.checks.begin(), Verdict::cannot_judge,
-                                   {.cause = Cause::no_baselines,
-                                    .facts = {{"folder", view.baselines.folder().string()}},
-                                    .detail = problem},
-                                   std::move(advice)));
-}
-
 void append(std::vector<Finding>& findings, std::vector<Finding> more) {
   std::ranges::move(more, std::back_inserter(findings));
 }
@@ -253,6 +239,15 @@ constexpr std::array check_rows{
              }},
 };
 
+// Returns the checks that compare with baselines.
+std::set<Check> comparing_checks() {
+  std::set<Check> checks;
+  for (const CheckRow& row : check_rows) {
+    if (row.needs_baselines) checks.insert(row.check);
+  }
+  return checks;
+}
+
 void run_checks(JudgingState& state) {
   judge_images(state);
   for (const CheckRow& row : check_rows) {
@@ -314,7 +309,9 @@ void report_run_contents(const RunView& view, GateResult& result) {
   report_other_plan(view, result.run, result.findings);
   report_configurations(view, result.findings);
   report_other_data(view, result.findings);
-  if (!view.baselines.present()) report_no_baselines(view, result.findings);
+  if (!view.baselines.present()) {
+    report_no_baselines(view, comparing_checks(), result.findings);
+  }
 }
 
 // Reports devices on which something was measured but that have only advisories and skips, because

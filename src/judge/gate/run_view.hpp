@@ -107,6 +107,10 @@ void report_required_devices(const RunView& view, std::vector<Finding>& findings
 // does not describe, device enumerations that failed, and accepted devices that are missing.
 void report_incomplete_run(const RunView& view, std::vector<Finding>& findings);
 
+// Reports that there are no baselines, with which the checks in `comparing` compare.
+void report_no_baselines(const RunView& view, const std::set<Check>& comparing,
+                         std::vector<Finding>& findings);
+
 // Returns whether an unexpired entry of waivers.json covers findings of this check about the
 // record.
 [[nodiscard]] bool is_waived(const RunView& view, const record::Record& record, Check check);

@@ -35,7 +35,7 @@ std::string escaped(std::string_view text, std::string_view also) {
 
 std::string title_of(const Cause& cause) {
   return core::printable(
-      fmt::format("{}: {}", judge::name_of(cause.group.first->check), words::location(cause)), 200);
+      fmt::format("{}: {}", judge::topic_of(*cause.group.first), words::location(cause)), 200);
 }
 
 std::string message_of(const Cause& cause) {
@@ -73,7 +73,7 @@ std::string gitlab_code_quality(std::span<const judge::GateResult> results,
     const SourceLocation location = locations.of(first, *cause.result);
     issues.push_back(
         {{"description", title_of(cause) + ": " + message_of(cause)},
-         {"check_name", judge::name_of(first.check)},
+         {"check_name", judge::topic_of(first)},
          {"fingerprint", core::content_hash(fmt::format("{}\n{}\n{}", first.test,
                                                         first.configuration, cause.group.kind))},
          {"severity", first.verdict == Verdict::regression ? "major" : "minor"},

@@ -92,10 +92,9 @@ std::string Junit::test_case(const Finding& finding, const judge::GateResult& re
   const std::string message = escape(words::text_of(finding));
   if (is_open(finding)) {
     const std::string command = escape(command_of(finding, result));
-    text +=
-        fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{2}{3}{4}</{0}>\n",
-                    finding.verdict == Verdict::regression ? "failure" : "error",
-                    judge::name_of(finding.check), message, command.empty() ? "" : "\n", command);
+    text += fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{2}{3}{4}</{0}>\n",
+                        finding.verdict == Verdict::regression ? "failure" : "error",
+                        judge::topic_of(finding), message, command.empty() ? "" : "\n", command);
   } else if (is_skip(finding)) {
     text += fmt::format("      <skipped message=\"{}\"/>\n", message);
   }
@@ -105,7 +104,7 @@ std::string Junit::test_case(const Finding& finding, const judge::GateResult& re
 std::string Junit::test_suites(const judge::GateResult& result) {
   std::map<std::string, std::vector<const Finding*>> suites;
   for (const Finding& finding : result.findings) {
-    suites[std::string(judge::name_of(finding.check))].push_back(&finding);
+    suites[std::string(judge::topic_of(finding))].push_back(&finding);
   }
   std::string text;
   for (const auto& [check, findings] : suites) {

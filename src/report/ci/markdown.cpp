@@ -43,9 +43,9 @@ std::string drivers(const Overview& all) {
 
 std::string item(const Cause& cause) {
   const judge::Finding& first = *cause.group.first;
-  std::string text = fmt::format(
-      "- **{}** {}: {}  \n  {}\n", judge::name_of(first.verdict), judge::name_of(first.check),
-      markdown_escaped(words::location(cause)), markdown_escaped(words::text_of(cause)));
+  std::string text = fmt::format("- **{}** {}: {}  \n  {}\n", judge::name_of(first.verdict),
+                                 judge::topic_of(first), markdown_escaped(words::location(cause)),
+                                 markdown_escaped(words::text_of(cause)));
   const std::string command = command_of(first, *cause.result);
   if (!command.empty() && command.size() < max_listed_command) text += fenced(command, "  ");
   return text;
@@ -142,7 +142,7 @@ std::string markdown(std::span<const judge::GateResult> results) {
     if (verdict == judge::Verdict::waived || verdict == judge::Verdict::improved) {
       rest.push_back(&cause);
     } else {
-      ++remark_counts[judge::name_of(cause.group.first->check)];
+      ++remark_counts[judge::topic_of(*cause.group.first)];
     }
   }
   text += bounds_details(all) + counted(remark_counts);

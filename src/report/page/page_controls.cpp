@@ -27,7 +27,7 @@ Html filters(std::span<const PlanData> plans) {
     for (const auto& [device, clocks] : plan.devices) devices.insert(device.id);
     suites.insert(suite_of(plan));
     for (const judge::Finding& finding : plan.verdict->findings) {
-      checks.emplace(judge::name_of(finding.check));
+      checks.emplace(judge::topic_of(finding));
     }
   }
   return markup(

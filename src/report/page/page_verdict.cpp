@@ -59,8 +59,8 @@ std::string heading(const Overview& all) {
 
 std::string lead(const Overview& all) {
   if (has_no_baselines(all)) {
-    return "Images were compared with the reference image. Everything else could not be judged, "
-           "because there are no stored values:";
+    return "Everything that needs no stored values was checked. There are no stored values with "
+           "which the rest could be compared:";
   }
   if (all.open.size() == 1) return "One cause:";
   if (!all.open.empty()) return fmt::format("{} causes, the worst first:", all.open.size());
@@ -82,7 +82,7 @@ Html contents(const Overview& all) {
   for (std::size_t i = 0; i < shown; ++i) {
     const Cause& cause = all.open[i];
     text += markup("<li><a href=\"#{}\">{}: {}</a></li>", cause_id(i),
-                   judge::name_of(cause.group.first->check), breakable(words::location(cause)));
+                   judge::topic_of(*cause.group.first), breakable(words::location(cause)));
   }
   if (shown < all.open.size()) {
     text +=
@@ -175,10 +175,11 @@ Html card(const Overview& all, std::span<const PlanData> plans) {
 
 // Returns the verdict of a row, with a link to its first cause.
 Html verdict_link(const CheckRow& row, const Overview& all) {
-  const bool work = row.check == judge::Check::counters || row.check == judge::Check::statistics;
+  const bool work = row.topic == judge::name_of(judge::Check::counters) ||
+                    row.topic == judge::name_of(judge::Check::statistics);
   const auto first = std::ranges::find_if(all.open, [&](const Cause& cause) {
     const bool reported_with_image = work && cause.group.changed_counters > 0;
-    return cause.group.first->check == row.check || reported_with_image;
+    return judge::topic_of(*cause.group.first) == row.topic || reported_with_image;
   });
   const bool open =
       row.worst == judge::Verdict::regression || row.worst == judge::Verdict::cannot_judge;
@@ -230,7 +231,7 @@ Html links(const Cause& cause, const PlanData& plan) {
 // Returns the checks for which the filters show the cause. If counters or statistics changed
 // together with wrong images, the cause of the wrong images is also shown for these checks.
 std::string checks_of(const Cause& cause) {
-  std::set<std::string_view> checks{judge::name_of(cause.group.first->check)};
+  std::set<std::string_view> checks{judge::topic_of(*cause.group.first)};
   if (cause.group.changed_counters > 0) {
     std::set<std::pair<std::string_view, std::string_view>> places;
     for (const Finding* each : cause.group.members) {
@@ -240,7 +241,7 @@ std::string checks_of(const Cause& cause) {
       const bool work =
           each.check == judge::Check::counters || each.check == judge::Check::statistics;
       if (work && is_open(each) && places.contains({each.device, each.configuration})) {
-        checks.insert(judge::name_of(each.check));
+        checks.insert(judge::topic_of(each));
       }
     }
   }
@@ -257,7 +258,7 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
       "</article>\n",
       judge::name_of(first.verdict), id, is_open(first) ? "finding" : "remark",
       fmt::format("{}", fmt::join(cause.group.devices, " ")), suite_of(plan),
-      judge::name_of(first.check), breakable(words::location(cause)), words::text_of(cause),
+      judge::topic_of(first), breakable(words::location(cause)), words::text_of(cause),
       links(cause, plan),
       first.configuration.empty()
           ? Html()
@@ -329,14 +330,14 @@ Html terms_section(const Overview& all) {
   Rows rows{{"term", "meaning", "documentation"}};
   for (const auto& [word, meaning, page] : terms) rows.push_back({word, meaning, page});
   for (const CheckRow& row : all.rows) {
-    const std::string name(judge::name_of(row.check));
-    const std::string_view page = row.check == judge::Check::cost          ? "docs/cost.md"
-                                  : row.check == judge::Check::code        ? "docs/code.md"
-                                  : row.check == judge::Check::correlation ? "docs/correlation.md"
-                                  : row.check == judge::Check::accuracy    ? "docs/accuracy.md"
-                                  : row.check == judge::Check::stress      ? "docs/validate.md"
-                                                                           : "docs/gate.md";
-    rows.push_back({fmt::format("check {}", name),
+    const auto is = [&](judge::Check check) { return row.topic == judge::name_of(check); };
+    const std::string_view page = is(judge::Check::cost)          ? "docs/cost.md"
+                                  : is(judge::Check::code)        ? "docs/code.md"
+                                  : is(judge::Check::correlation) ? "docs/correlation.md"
+                                  : is(judge::Check::accuracy)    ? "docs/accuracy.md"
+                                  : is(judge::Check::stress)      ? "docs/validate.md"
+                                                                  : "docs/gate.md";
+    rows.push_back({fmt::format("check {}", row.topic),
                     fmt::format("the check whose result is in the row “{}” above", row.label),
                     page});
   }
@@ -353,7 +354,7 @@ JudgedImages judged_images(const Overview& all, std::span<const PlanData> plans)
     for (const Finding& finding : plan.verdict->findings) {
       if (finding.configuration.empty()) continue;
       JudgedImage& of = judged[image_id(plan, finding.device, finding.configuration)];
-      of.checks.insert(judge::name_of(finding.check));
+      of.checks.insert(judge::topic_of(finding));
       const auto cause = causes.find(&finding);
       if (cause != causes.end() && of.cause.empty()) of.cause = cause_id(cause->second);
     }

@@ -129,11 +129,11 @@ class Screen {
     const judge::Finding& worst = cause.group.worst == nullptr ? first : *cause.group.worst;
     return fmt::format(
         "  {} {}", sign_of(first),
-        core::printable(fmt::format("{} {} {}: {}", judge::name_of(first.check),
-                                    first.device.empty() ? "of" : "on",
-                                    first.device.empty() ? cause.result->plan : worst.device,
-                                    words::text_of(worst)),
-                        width_ - 4));
+        core::printable(
+            fmt::format("{} {} {}: {}", judge::topic_of(first), first.device.empty() ? "of" : "on",
+                        first.device.empty() ? cause.result->plan : worst.device,
+                        words::text_of(worst)),
+            width_ - 4));
   }
 
   [[nodiscard]] std::string sign_of(const judge::Finding& finding) const {
@@ -196,7 +196,7 @@ class Screen {
     const judge::Finding& first = *cause.group.first;
     std::vector<std::string> lines{fmt::format(
         "  {} {}", sign_of(first),
-        core::printable(fmt::format("{}: {}", judge::name_of(first.check), words::location(cause)),
+        core::printable(fmt::format("{}: {}", judge::topic_of(first), words::location(cause)),
                         width_ - 4))};
     append_wrapped(lines, message_of(cause), "");
     const std::string command = command_of(first, *cause.result);

@@ -18,6 +18,31 @@ struct CheckWords {
   bool always;              // whether the row is shown even if the check did not run
 };
 
+// The same for a topic (judge::topic_of).
+struct TopicWords {
+  std::string_view topic;
+  std::string_view label;
+  std::string_view wrong;
+  std::string_view passed;
+  std::string_view none;
+  bool always;
+};
+
+// A topic that is not a check: its row is shown only if it has findings. `sentence` is followed by
+// the devices, or by the plans if the findings belong to no device.
+struct NoticeWords {
+  std::string_view topic;
+  std::string_view label;
+  std::string_view sentence;
+};
+
+inline constexpr std::array notice_words{
+    NoticeWords{"driver", "Driver", "faults that belong to no single image"},
+    NoticeWords{"baselines", "Baselines", "none"},
+};
+// The sentence of a check that needs baselines, if there are none.
+inline constexpr std::string_view nothing_to_compare = "not checked: there are no baselines";
+
 inline constexpr std::array check_words{
     CheckWords{record::Check::image, "Images", "wrong", "within their error bounds", "not checked",
                true},

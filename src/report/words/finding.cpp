@@ -50,7 +50,7 @@ std::string places(const GateResult& result, Verdict verdict) {
   std::set<std::string_view> devices;
   for (const Finding& finding : result.findings) {
     if (finding.verdict != verdict) continue;
-    checks.insert(judge::name_of(finding.check));
+    checks.insert(judge::topic_of(finding));
     if (!finding.device.empty()) devices.insert(finding.device);
   }
   const std::string where = fmt::format(" in {}", fmt::join(checks, ", "));
@@ -129,6 +129,11 @@ std::string advice(const Finding& finding) {
       return fmt::format(
           "accept this version with {}, or compare two versions directly with gate --base "
           "(docs/gate.md)",
+          command);
+    case Advice::accept_own:
+      return fmt::format(
+          "to compare later runs with this one, accept it with {}, and pass the same option "
+          "--baselines to `gate` and `report`",
           command);
     case Advice::run_again:
       return "run the plan again";

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "core/image_io.hpp"
@@ -21,7 +22,32 @@ TEST_F(GateTest, WithoutBaselinesTheCommandToAcceptIsPrinted) {
   ASSERT_EQ(with(result, Verdict::cannot_judge).size(), 1U) << text(result);
   const Finding finding = with(result, Verdict::cannot_judge).at(0);
   EXPECT_EQ(finding.cause, Cause::no_baselines);
+  EXPECT_EQ(finding.advice.advice, Advice::accept);
   EXPECT_EQ(finding.advice.command, "triptych accept volume/quick --reason TEXT");
+  EXPECT_FALSE(finding.fact("folder").empty());
+}
+
+// The default folder contains the baselines of the suites' plans, and may be a source checkout.
+TEST_F(GateTest, AUsersPlanIsAcceptedInAFolderOfTheUser) {
+  add_run("a");
+  GateRequest request = request_;
+  request.plan = "study";
+  request.argument = "my/study.yaml";
+  request.checks = {Check::image, Check::counters, Check::timing};
+  const auto no_baselines = [&] {
+    const GateResult result = gate("a", request);
+    const auto found = std::ranges::find(result.findings, Cause::no_baselines, &Finding::cause);
+    return found == result.findings.end() ? Finding{} : *found;
+  };
+  const Finding own = no_baselines();
+  EXPECT_EQ(own.advice.advice, Advice::accept_own);
+  EXPECT_EQ(own.advice.command,
+            "triptych accept my/study.yaml --reason TEXT --baselines own-baselines");
+  EXPECT_EQ(own.fact("folder"), "");
+  EXPECT_EQ(own.fact("checked"), "image");
+  EXPECT_THAT(own.names, testing::ElementsAre("counters", "timing"));
+  request.baselines_option = " --baselines mine";
+  EXPECT_EQ(no_baselines().advice.advice, Advice::accept);
 }
 
 // Commands are quoted for the shell, because users paste them.
