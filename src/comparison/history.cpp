@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/glob.hpp"
+#include "judge/baselines/baselines.hpp"
 
 namespace triptych::comparison {
 namespace {
@@ -24,7 +25,10 @@ std::map<std::string, MeasurementsByConfiguration> measurements_by_device(
       const auto time = record::summarise(
           record.wall_ns);  // wall-clock times, because every timed record has them
       here.cost = record.instructions();
-      if (time) here.time = time->median;
+      if (!time) return;
+      here.time = time->median;
+      here.time_spread = judge::log_spread(record.wall_ns);
+      here.clock = record.clock();
     });
   }
   return devices;
@@ -154,6 +158,22 @@ std::optional<double> HistoryBuilder::extend_chain(Chain& chain,
   return chain.empty() ? std::nullopt : std::optional(now);
 }
 
+void HistoryBuilder::add_times(DeviceState& known, const MeasurementsByConfiguration& here,
+                               HistoryPoint& point) {
+  std::vector<TimePair> pairs;
+  for (const auto& [configuration, now] : here) {
+    if (!now.time) continue;
+    const auto found = known.timed.find(configuration);
+    if (found != known.timed.end()) {
+      const Measurement& before = found->second;
+      pairs.push_back({*before.time, *now.time, before.time_spread, now.time_spread});
+      if (before.clock != now.clock) ++point.changed_clocks[{before.clock, now.clock}];
+    }
+    known.timed.insert_or_assign(configuration, now);
+  }
+  point.time_change = time_change(pairs);
+}
+
 void HistoryBuilder::add(const record::Store& store, measure::Truths& truths) {
   const auto measured = measurements_by_device(store);
   Points points = points_of(store);
@@ -164,6 +184,7 @@ void HistoryBuilder::add(const record::Store& store, measure::Truths& truths) {
     if (const auto here = measured.find(id); here != measured.end()) {
       point.cost = extend_chain(known.cost, here->second, &Measurement::cost);
       point.time = extend_chain(known.time, here->second, &Measurement::time);
+      add_times(known, here->second, point);
       for (const auto& [configuration, amounts] : here->second) {
         known.latest_with[configuration] = &store;
         if (!amounts.injected.empty()) point.injected.insert(amounts.injected);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "comparison/store_diff.hpp"
+#include "comparison/time_change.hpp"
 
 namespace triptych::comparison {
 
@@ -28,6 +29,12 @@ struct HistoryPoint {
   // configurations.
   std::optional<double> cost;  // instructions of generated code and driver
   std::optional<double> time;  // median frame time on the wall clock, available in all stores
+  // The change of the wall-clock times of the configurations that an earlier store contains.
+  std::optional<TimeChange> time_change;
+  // The number of configurations whose results are based on another clock (record::Record::clock)
+  // than in the previous store that contains their times. The keys are the previous clock and the
+  // clock in this store. The history always uses the wall clock, so these times are comparable.
+  std::map<std::pair<std::string, std::string>, std::size_t> changed_clocks;
   // The changes of each configuration relative to the most recent earlier store that contains it.
   std::vector<DifferenceGroup> changes;
   bool worse = false;  // whether `changes` contains a regression
@@ -46,7 +53,9 @@ struct DeviceHistory {
 struct Measurement {
   std::optional<double> cost;
   std::optional<double> time;
-  std::string injected;  // see record::Record::injected
+  double time_spread = 0;     // judge::log_spread of the frame times
+  std::string clock = {};     // record::Record::clock, if the configuration was timed
+  std::string injected = {};  // see record::Record::injected
 };
 // The keys are "PLAN CONFIGURATION".
 using MeasurementsByConfiguration = std::map<std::string, Measurement>;
@@ -77,7 +86,8 @@ class HistoryBuilder {
   struct DeviceState {  // what is known about a device so far
     Chain cost;
     Chain time;
-    const record::Store* last = nullptr;  // the latest store with the device
+    std::map<std::string, Measurement> timed;  // the most recent timed measurements
+    const record::Store* last = nullptr;       // the latest store with the device
     // The latest store with each configuration.
     std::map<std::string, const record::Store*> latest_with;
 
@@ -90,6 +100,9 @@ class HistoryBuilder {
 
   static std::optional<double> extend_chain(Chain& chain, const MeasurementsByConfiguration& here,
                                             std::optional<double> Measurement::*value);
+  // Sets the members of `point` that describe times, except for the index.
+  static void add_times(DeviceState& known, const MeasurementsByConfiguration& here,
+                        HistoryPoint& point);
   void add_changes(const record::Store& store,
                    const std::map<std::string, MeasurementsByConfiguration>& measured,
                    measure::Truths& truths, Points& points) const;

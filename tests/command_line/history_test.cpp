@@ -66,6 +66,19 @@ TEST_F(History, ComparesTimesFromTheSameClock) {
   ASSERT_EQ(points.size(), 3U);
   EXPECT_NEAR(points[1].at("time").get<double>(), 1, 0.05);
   EXPECT_NEAR(points[2].at("time").get<double>(), 2, 0.2);
+  // The frames take the same time in every run, so only a real change is distinguishable from
+  // noise.
+  EXPECT_FALSE(points[0].contains("time_change"));
+  EXPECT_TRUE(points[1].at("time_change").at("noise").get<bool>());
+  EXPECT_FALSE(points[2].at("time_change").at("noise").get<bool>());
+  EXPECT_GT(points[1].at("time_change").at("half_width").get<double>(), 0);
+  // The clock differs in the second store, and again in the third.
+  EXPECT_FALSE(points[0].contains("changed_clocks"));
+  EXPECT_TRUE(points[1].contains("changed_clocks"));
+  EXPECT_TRUE(points[2].contains("changed_clocks"));
+  const Result screen = program.run("history 1.sqlite 2.sqlite 3.sqlite");
+  EXPECT_THAT(screen.output, HasSubstr("(noise)"));
+  EXPECT_THAT(screen.output, HasSubstr("triptych compare"));
 }
 
 // The second store has images but no times.

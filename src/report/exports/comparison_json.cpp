@@ -5,6 +5,7 @@
 
 #include "report/exports/verdict_json.hpp"
 #include "report/words/comparison.hpp"
+#include "report/words/history.hpp"
 
 namespace triptych::report {
 namespace {
@@ -218,6 +219,15 @@ Json to_json(const std::vector<comparison::DeviceHistory>& history) {
                 {"worse", point.worse}};
       if (point.cost) each["cost"] = *point.cost;
       if (point.time) each["time"] = *point.time;
+      if (point.time_change) {
+        each["time_change"] = {{"ratio", point.time_change->ratio},
+                               {"half_width", point.time_change->half_width},
+                               {"noise", point.time_change->is_noise()},
+                               {"text", words::text_of(point.time_change)}};
+      }
+      if (std::string text = words::changed_clocks(point); !text.empty()) {
+        each["changed_clocks"] = std::move(text);
+      }
       if (!point.injected.empty()) each["injected"] = point.injected;
       points.push_back(std::move(each));
     }

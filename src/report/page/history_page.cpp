@@ -10,6 +10,7 @@
 #include "report/figures/figure.hpp"
 #include "report/html.hpp"
 #include "report/page/page_frame.hpp"
+#include "report/words/history.hpp"
 
 namespace triptych::report {
 namespace {
@@ -59,6 +60,16 @@ std::string number_text(const Json& point, const char* key) {
   return point.contains(key) ? fmt::format("{:.4f}", point.at(key).get<double>()) : "–";
 }
 
+// Returns the change of the times since the previous store, and whether the clocks differ.
+std::string change_of(const Json& point) {
+  std::string text =
+      point.contains("time_change") ? point.at("time_change").at("text").get<std::string>() : "–";
+  if (point.contains("changed_clocks")) {
+    text += "; " + point.at("changed_clocks").get<std::string>();
+  }
+  return text;
+}
+
 // Creates a figure with one category per store. A store without a value has no point.
 Html figure_of(const Json& device, const Axis& up) {
   const Json& points = device.at("points");
@@ -88,13 +99,15 @@ Html figure_of(const Json& device, const Axis& up) {
 }
 
 Html table_of(const Json& device) {
-  Rows rows{{"store", "started", "driver", "cost", "time", "changes"}};
+  Rows rows{
+      {"store", "started", "driver", "cost", "time", "time / time in previous store", "changes"}};
   for (const Json& point : device.at("points")) {
     const std::string changes = point.at("changes").get<std::string>();
     const Html summary = point.at("worse").get<bool>() ? markup("<b class=\"regression\">worse</b>")
                                                        : markup("changed");
     rows.push_back({name_of_store(point), point.at("started_at").get<std::string>(),
                     driver_of(point), number_text(point, "cost"), number_text(point, "time"),
+                    change_of(point),
                     changes.empty() ? Html() : folded(summary, markup("<pre>{}</pre>", changes))});
   }
   return table(rows);
@@ -107,8 +120,9 @@ std::string history_page(const Json& history) {
   page += markup(
       "<main><h1>History</h1>\n<p>Cost is the number of instructions per frame, in generated code "
       "and in the driver. Cost and time are geometric means over the configurations that "
-      "consecutive stores have in common. Times are shown, but they do not affect any "
-      "verdict.</p>\n");
+      "consecutive stores have in common. Times are wall-clock times. They are shown, but they "
+      "do not affect any verdict. {}</p>\n",
+      words::noise_note());
   const Axis up = axis_of(history);
   for (const Json& device : history) {
     page += markup("<h2>{}</h2>\n", device.at("device").get<std::string>());

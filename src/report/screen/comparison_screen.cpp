@@ -12,6 +12,7 @@
 
 #include "record/short_name.hpp"
 #include "report/words/comparison.hpp"
+#include "report/words/history.hpp"
 
 namespace triptych::report {
 namespace {
@@ -245,15 +246,23 @@ std::string screen_of(const comparison::StoreDiff& diff, bool verbose) {
 
 std::string screen_of(const std::vector<comparison::DeviceHistory>& history) {
   const auto names = names_of(history);
+  bool has_times = false;
   std::string text;
   for (const comparison::DeviceHistory& device : history) {
     text += fmt::format(
-        "{} (cost and time are relative to the first store)\n  {:<28} {:<20} {:>9} {:>9}  driver\n",
-        device.device, "store", "started", "cost", "time");
+        "{} (cost and time are relative to the first store)\n  {:<28} {:<20} {:>9} {:>9}  {:<30} "
+        "driver\n",
+        device.device, "store", "started", "cost", "time", "time / time in previous store");
     for (const HistoryPoint& point : device.points) {
-      text += fmt::format("  {:<28} {:<20} {:>9} {:>9}  {}\n", names.at(point.store),
-                          point.started_at, number(point.cost), number(point.time),
-                          point.driver_version + injected_text(point));
+      const std::string change = words::text_of(point.time_change);
+      text +=
+          fmt::format("  {:<28} {:<20} {:>9} {:>9}  {:<30} {}\n", names.at(point.store),
+                      point.started_at, number(point.cost), number(point.time),
+                      change.empty() ? "–" : change, point.driver_version + injected_text(point));
+      if (const std::string clocks = words::changed_clocks(point); !clocks.empty()) {
+        text += fmt::format("    {}\n", clocks);
+      }
+      has_times = has_times || point.time_change;
       text += words::lines_of(point.changes);
     }
     if (const HistoryPoint* worse = device.first_worse()) {
@@ -261,6 +270,7 @@ std::string screen_of(const std::vector<comparison::DeviceHistory>& history) {
           fmt::format("  first store that is worse than the previous store: {}\n", worse->store);
     }
   }
+  if (has_times) text += fmt::format("{}\n", words::noise_note());
   return text;
 }
 
