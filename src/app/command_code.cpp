@@ -85,6 +85,7 @@ measure::Plan plan_of(const measure::Suite& suite, const CodeArguments& argument
 
 core::ExitCode code(const CodeArguments& arguments) {
   const Registry registry = make_registry();
+  if (arguments.frame.device.empty()) registry.refuse_missing_device();
   measure::SuiteWithTruth& suite = registry.suite(arguments.frame.suite);
   const measure::Plan plan = plan_of(suite, arguments);
   const std::string device = measure::choose_device(

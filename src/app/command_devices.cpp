@@ -9,6 +9,7 @@
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "measure/worker/listing.hpp"
+#include "report/words/clocks.hpp"
 #include "report/words/outcome.hpp"
 
 namespace triptych::app {
@@ -30,7 +31,45 @@ struct Devices {
   std::vector<std::string> compilers;
 };
 
+std::string usable(const Greeting& greeting) {
+  if (greeting.refused) return "no: " + text_of(*greeting.refused);
+  return greeting.device.compiles_for.empty() ? "yes" : "only to compile";
+}
+
+// Prints one line for each device: its id, its driver version, whether its clocks are trusted, and
+// whether it can be used.
+void print_table(const Devices& found) {
+  struct Row {
+    std::string id;
+    std::string driver;
+    std::string clock;
+    std::string usable;
+  };
+  std::vector<Row> rows{{"device", "driver", "clock", "usable"}};
+  for (const Greeting& each : found.greeted) {
+    rows.push_back({each.device.id, each.device.driver_version,
+                    report::words::trust_of(each.clocks), usable(each)});
+  }
+  for (const measure::Broken& each : found.broken) {
+    rows.push_back({each.what, "–", "–", "no: " + why(each)});
+  }
+  const auto width_of = [&](std::string Row::*column) {
+    std::size_t width = 0;
+    for (const Row& row : rows) width = std::max(width, (row.*column).size());
+    return width;
+  };
+  const std::size_t id = width_of(&Row::id);
+  const std::size_t driver = width_of(&Row::driver);
+  const std::size_t clock = width_of(&Row::clock);
+  for (const Row& row : rows) {
+    print_out("{:<{}}  {:<{}}  {:<{}}  {}\n", row.id, id, row.driver, driver, row.clock, clock,
+              row.usable);
+  }
+  print_out("\n");
+}
+
 void print_text(const Devices& found) {
+  print_table(found);
   for (const Greeting& each : found.greeted) {
     print_out("{}\n  {} ({}), driver {}, {}\n", each.device.id, each.device.name,
               each.device.vendor, each.device.driver_version, each.device.api_version);

@@ -159,10 +159,6 @@ core::ExitCode describe_data(const Registry& registry, const FrameArguments& arg
   return core::ExitCode::pass;
 }
 
-void require_option(const std::string& value, std::string_view name) {
-  if (value.empty()) throw core::InputError(fmt::format("{} is required", name));
-}
-
 // Sets environment variables for the backends. They make the backends give names to objects and
 // render passes, which debugging tools display. With --dump, they also make the backends write the
 // driver's input to the folder `dump`.
@@ -247,8 +243,8 @@ void require_times_if_compared(const RenderArguments& arguments, const measure::
 
 core::ExitCode render(const RenderArguments& arguments) {
   if (arguments.describe) return describe_data(make_registry(), arguments.frame);
-  require_option(arguments.frame.device, "--device");
-  require_option(arguments.frame.out, "--out");
+  if (arguments.frame.device.empty()) make_registry().refuse_missing_device();
+  if (arguments.frame.out.empty()) throw core::InputError("--out is required");
   if (arguments.in_process || !arguments.dump.empty() || !arguments.pixel.empty()) {
     return render_in_process(arguments);
   }
@@ -274,7 +270,7 @@ core::ExitCode render(const RenderArguments& arguments) {
 void add_render_command(Commands& commands) {
   auto [command, arguments] = commands.add(
       "render", "Draw one configuration, and write image.exr, image.png and frame.json", render,
-      {.frame = {.allow_auto = true, .device_optional = true}});
+      {.frame = {.allow_auto = true}});
   arguments.frame.add_to(command);
   command.add_option("--out", arguments.frame.out, "Write the files to this folder");
   command.add_option(

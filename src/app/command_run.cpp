@@ -119,8 +119,9 @@ void add_run_options(CLI::App& command, MeasureRequest& request) {
 }  // namespace
 
 void add_run_commands(Commands& commands) {
-  auto [command, request] = commands.add("run", "Measure a plan on the devices of this machine",
-                                         run, {.report_fastest = true, .report_unmeasured = true});
+  auto [command, request] =
+      commands.add("run", "Measure a plan on the devices of this machine", run,
+                   {.report_fastest = true, .report_unmeasured = true, .report_clocks = true});
   add_run_options(command, request);
   command.add_flag("--resume", request.resume, "Continue each plan's latest run in the store");
   add_example(command, "triptych run volume/quick --device 'vulkan:*' --store results.sqlite");

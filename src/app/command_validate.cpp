@@ -290,6 +290,7 @@ FeatureTable features_of(const ValidateArguments& arguments, const Validation& v
 
 core::ExitCode validate(const ValidateArguments& arguments) {
   const measure::Stopwatch since;
+  if (arguments.devices.empty()) make_registry().refuse_missing_device();
   // Checks the value of --ci before anything is measured; throws if it is unknown.
   static_cast<void>(ci_system(arguments.ci));
   core::refuse_overwriting({{"--expect", arguments.expect}},
@@ -327,10 +328,8 @@ void add_validate_command(Commands& commands) {
                                            validate);
   add_example(command,
               "triptych validate --device vulkan:lavapipe --without-data --out validation");
-  command
-      .add_option("--device", arguments.devices,
-                  "Validate devices that match this glob (repeatable)")
-      ->required();
+  command.add_option("--device", arguments.devices,
+                     "Validate devices that match this glob (repeatable; required)");
   command
       .add_option("--out", arguments.out,
                   "Write to this folder: the store, and the same files that `gate --out` writes")

@@ -21,8 +21,10 @@
 #include "measure/system/system_facts.hpp"
 #include "measure/worker/listing.hpp"
 #include "measure/worker/own_program.hpp"
+#include "record/clock_counts.hpp"
 #include "report/screen/error_table.hpp"
 #include "report/screen/unmeasured.hpp"
+#include "report/words/clocks.hpp"
 #include "report/words/requested_error.hpp"
 
 namespace triptych::app {
@@ -152,6 +154,19 @@ void print_unmeasured(const RunContext& context, const measure::RunResult& resul
   }
 }
 
+// Prints which clock the times of each device use.
+void print_clocks(const RunContext& context, const std::string& run) {
+  const auto before = record::clock_counts(context.store, record::previous_run(context.store, run));
+  for (const auto& [device, clocks] : record::clock_counts(context.store, run)) {
+    const auto earlier = before.find(device);
+    print_lines(
+        report::words::clocks_of(
+            device, clocks, earlier == before.end() ? record::ClockCounts{} : earlier->second) +
+            "\n",
+        context.request.summary_output);
+  }
+}
+
 std::vector<measure::RunResult> measure_on(const RunContext& context,
                                            const std::vector<measure::Plan>& plans) {
   const measure::RunOptions options = options_of(context.request, context.begun);
@@ -184,6 +199,7 @@ std::vector<measure::RunResult> measure_on(const RunContext& context,
     print_lines(describe(results[i], plans[i].name, context.request.store),
                 context.request.summary_output);
     if (context.request.report_unmeasured) print_unmeasured(context, results[i]);
+    if (context.request.report_clocks) print_clocks(context, results[i].run);
   }
   return results;
 }

@@ -36,6 +36,7 @@ struct MeasureRequest {
   std::optional<std::string> error = {};  // requested error, as typed by the user
   bool report_fastest = false;            // report the fastest technique if a plan contains `auto`
   bool report_unmeasured = false;         // print why configurations were skipped or failed
+  bool report_clocks = false;             // report which clock the times of each device use
   bool verbose = false;                   // print a line for each configuration
   CiSystem ci = CiSystem::none;           // the CI system that shows the log
   std::FILE* summary_output = stdout;

@@ -7,9 +7,7 @@ namespace triptych::app {
 
 void FrameArguments::add_to(CLI::App& command) {
   command.add_option("SUITE", suite, "Suite: volume or particles")->required();
-  CLI::Option* const option = command.add_option(
-      "--device", device, "Device id, or a glob that matches exactly one device");
-  if (!device_optional) option->required();
+  command.add_option("--device", device, "Device id, or a glob that matches exactly one device");
   command.add_option("--set", set,
                      "factor=level: set this factor to this level (repeatable); write a comma "
                      "inside a level as %2C");
@@ -34,6 +32,7 @@ ChosenData choose_data(const Registry& registry, const FrameArguments& arguments
 }
 
 OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments) {
+  if (arguments.device.empty()) registry.refuse_missing_device();
   core::require_writable(arguments.out);
   auto [suite, plan] = choose_data(registry, arguments);
   return {

@@ -17,8 +17,6 @@ struct FrameArguments {
   std::vector<std::string> faults = {};
 
   bool allow_auto = false;  // whether the level "auto" (several techniques) is allowed
-  // Whether --device is optional, because data can be described without it.
-  bool device_optional = false;
 
   void add_to(CLI::App& command);  // adds all options except --out
 };

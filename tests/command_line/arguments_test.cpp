@@ -53,7 +53,44 @@ TEST_F(Arguments, EveryGlobMustMatchADevice) {
     const Result result = program.run(command + " --device 'null:*' --device 'vulcan:*'");
     EXPECT_EQ(result.code, 2) << result.output;
     EXPECT_THAT(result.output, HasSubstr("no device matches vulcan:*"));
+    EXPECT_THAT(result.output, HasSubstr("null:scripted"));
   }
+}
+
+TEST_F(Arguments, AMissingDeviceListsTheDevices) {
+  for (const std::string command :
+       {"render volume --out o", "validate", "code volume", "reduce volume --out o"}) {
+    const Result result = program.run(command);
+    EXPECT_EQ(result.code, 3) << result.output;
+    EXPECT_THAT(result.output, HasSubstr("--device is required; available devices:"));
+    EXPECT_THAT(result.output, HasSubstr("null:scripted"));
+  }
+}
+
+// The API of the glob has no device, but the message lists those of other APIs.
+TEST_F(Arguments, AnUnknownDeviceOfAKnownApi) {
+  const Result result = program.run("validate --device null");
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_THAT(result.output, HasSubstr("null:scripted"));
+}
+
+TEST_F(Arguments, TheListOfDevicesBeginsWithATable) {
+  const Result result = program.run("devices --device 'null:*'");
+  ASSERT_EQ(result.code, 0) << result.output;
+  EXPECT_EQ(result.output.find("device "), 0U) << result.output;
+  EXPECT_THAT(result.output.substr(0, result.output.find("\n\n")),
+              testing::MatchesRegex("device +driver +clock +usable\nnull:scripted +1 .*yes"));
+}
+
+TEST_F(Arguments, ARunReportsTheClocksOfItsTimes) {
+  const std::string run =
+      "run volume/quick --device 'null:*' --set technique=raycast --set data=generate:mandelbulb:8 "
+      "--set viewport=8 --store clocks.sqlite";
+  EXPECT_THAT(program.run(run, R"({"base_ns": 1e5, "device_over_wall": 0.98})").output,
+              HasSubstr("null:scripted: times use the device clock\n"));
+  EXPECT_THAT(program.run(run, R"({"base_ns": 1e5, "device_over_wall": 0.1})").output,
+              HasSubstr("null:scripted: times use the wall clock; in the previous run"));
+  EXPECT_EQ(program.run(run + " --untimed").output.find("times use"), std::string::npos);
 }
 
 TEST_F(Arguments, APlanWithoutAName) {

@@ -125,18 +125,8 @@ void list_compiler(const std::string& id, Listing& listing) {
         "install software drivers, or `triptych devices` to print what each loader found",
         glob));
   }
-  std::string known;
-  for (const record::Device& device : listing.devices) known += " " + device.id;
-  for (const Broken& each : listing.broken) {
-    known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",
-                         each.reason);
-    // The last output of a process that failed while it enumerated devices may state the cause. For
-    // example, RADV prints a message and aborts if it does not support a GPU family.
-    if (each.ended && !each.ended->last_output.empty()) {
-      known += fmt::format(" (its last output: {})", each.ended->last_output);
-    }
-  }
-  throw core::NotSupported(fmt::format("no device matches {}; available devices:{}", glob, known));
+  throw core::NotSupported(
+      fmt::format("no device matches {}; available devices:{}", glob, available_devices(listing)));
 }
 
 }  // namespace
@@ -195,6 +185,31 @@ Listing list_compilers(const std::vector<std::string>& globs) {
   Listing listing;
   for (const std::string& id : ids) list_compiler(id, listing);
   return listing;
+}
+
+std::vector<std::string> unmatched(const Listing& listing, const std::vector<std::string>& globs) {
+  std::vector<std::string> result;
+  std::ranges::copy_if(globs, std::back_inserter(result), [&](const std::string& glob) {
+    return !compile_only(glob) && std::ranges::none_of(listing.devices, [&](const auto& device) {
+      return core::glob_matches(glob, device.id);
+    });
+  });
+  return result;
+}
+
+std::string available_devices(const Listing& listing) {
+  std::string known;
+  for (const record::Device& device : listing.devices) known += " " + device.id;
+  for (const Broken& each : listing.broken) {
+    known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",
+                         each.reason);
+    // The last output of a process that failed while it enumerated devices may state the cause. For
+    // example, RADV prints a message and aborts if it does not support a GPU family.
+    if (each.ended && !each.ended->last_output.empty()) {
+      known += fmt::format(" (its last output: {})", each.ended->last_output);
+    }
+  }
+  return known;
 }
 
 std::vector<std::string> choose_devices(const Listing& listing,

@@ -36,6 +36,13 @@ void append(Listing& all, Listing more);
 // Returns whether any of the globs is the full id of a compile-only device.
 [[nodiscard]] bool names_compile_only_device(const std::vector<std::string>& globs);
 
+// Returns the globs that match no device in the listing, without the ids of compile-only devices.
+[[nodiscard]] std::vector<std::string> unmatched(const Listing& listing,
+                                                 const std::vector<std::string>& globs);
+
+// Returns the ids of all devices, followed by the drivers that cannot be used, for messages.
+[[nodiscard]] std::string available_devices(const Listing& listing);
+
 // Returns the ids of the devices that match any of the globs (all devices if there are no globs),
 // in the order of the listing. If a glob matches no device, throws a core::NotSupported that lists
 // the available devices.

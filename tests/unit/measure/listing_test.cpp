@@ -45,6 +45,14 @@ TEST(ChooseDevices, InTheOrderOfTheListing) {
               ElementsAre("opencl:pocl", "gl:softpipe"));
 }
 
+// If a glob matches nothing, all APIs are opened, so that the error message can list all devices.
+// Devices that only compile are not listed like other devices.
+TEST(Unmatched, ContainsGlobsWithoutADevice) {
+  EXPECT_THAT(unmatched(some_listing(), {"gl:*", "vulkan", "opencl:pocl"}), ElementsAre("vulkan"));
+  EXPECT_TRUE(unmatched(some_listing(), {"vulkan:radv-navi31"}).empty());
+  EXPECT_TRUE(unmatched(some_listing(), {}).empty());
+}
+
 TEST(ChooseDevices, EachGlobMustMatchADevice) {
   EXPECT_EQ(refusal(some_listing(), "vulkan:*"),
             "no device matches vulkan:*; available devices: opencl:pocl gl:llvmpipe gl:softpipe; "
