@@ -233,7 +233,7 @@ class EndToEnd(unittest.TestCase):
                 json.dump(plan, text)
         self.triptych("run", "few_volume.yaml", "few_particles.yaml", "--device", "null:scripted", "--store", "few.sqlite")
         self.assertEqual(notebook.main([file, os.path.join(self.folder, "few.sqlite"), "--out", out]), 0)
-        self.assertGreater(len(glob.glob(os.path.join(out, "cell_*.svg"))), 2)
+        self.assertGreater(len(glob.glob(os.path.join(out, "*.svg"))), 2)
         with open(file, encoding="utf-8") as text:
             for cell in json.load(text)["cells"]:
                 self.assertFalse(cell.get("outputs"), "the notebook must not contain outputs")

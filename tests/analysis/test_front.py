@@ -5,7 +5,7 @@ import tempfile
 import unittest
 
 import pandas as pd
-from triptych_analysis import front, tables
+from triptych_analysis import front, notebook, tables
 
 
 class Front(unittest.TestCase):
@@ -42,6 +42,18 @@ class Front(unittest.TestCase):
     def test_an_export_without_errors_has_none(self):
         self.assertIsNone(front.points(self.folder))
         self.assertIsNone(front.draw(None))
+
+
+class Notebook(unittest.TestCase):
+    def test_figures_are_named_after_their_headings(self):
+        used = set()
+        names = [notebook.file_name("Time against error: which settings are worth their time?", used) for _ in range(2)]
+        self.assertEqual(names, ["time_against_error.svg", "time_against_error_2.svg"])
+
+    def test_empty_results_are_not_shown(self):
+        for value in (None, pd.DataFrame(columns=["a"])):
+            self.assertFalse(notebook.show(value, "title", ".", set(), "title"))
+        self.assertTrue(notebook.show(pd.DataFrame({"a": [1]}), "", ".", set(), "title"))
 
 
 if __name__ == "__main__":
