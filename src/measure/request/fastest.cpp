@@ -1,13 +1,16 @@
 #include "measure/request/fastest.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
+#include "core/quoting.hpp"
 #include "record/factor_list.hpp"
 
 namespace triptych::measure {
@@ -144,6 +147,27 @@ FastestTrials find_fastest(Plan plan, const Suite& suite,
   return trials;
 }
 
+namespace {
+
+// Groups the levels that were not drawn by the reason, in a few words. The groups keep the order of
+// the records.
+std::vector<std::pair<std::string, std::vector<std::string>>> not_drawn_by_reason(
+    const FastestAnswer& answer, const std::set<std::string>& chosen) {
+  constexpr std::size_t longest_reason = 60;
+  std::vector<std::pair<std::string, std::vector<std::string>>> groups;
+  for (const Record* record : answer.not_drawn) {
+    const std::string& detail = record->reason.detail;
+    const std::string reason = detail.empty() ? std::string(record::name_of(record->outcome))
+                                              : core::printable(detail, longest_reason);
+    auto group = std::ranges::find(groups, reason, [](const auto& each) { return each.first; });
+    if (group == groups.end()) group = groups.insert(group, {reason, {}});
+    group->second.push_back(chosen_levels(*record, chosen));
+  }
+  return groups;
+}
+
+}  // namespace
+
 std::string describe(const FastestAnswer& answer, const std::set<std::string>& chosen) {
   std::string text = fmt::format("{} {}: ", answer.device, answer.scene);
   if (answer.candidates.empty()) {
@@ -161,9 +185,10 @@ std::string describe(const FastestAnswer& answer, const std::set<std::string>& c
                           each.amount <= best.median ? " (no clear difference)" : "");
     }
   }
-  for (std::size_t i = 0; i < answer.not_drawn.size(); ++i) {
-    text += fmt::format("{}{}", i == 0 ? "; not drawn: " : ", ",
-                        chosen_levels(*answer.not_drawn[i], chosen));
+  std::string_view separator = "; not drawn: ";
+  for (const auto& [reason, levels] : not_drawn_by_reason(answer, chosen)) {
+    text +=
+        fmt::format("{}{} ({})", std::exchange(separator, "; "), fmt::join(levels, ", "), reason);
   }
   return text;
 }

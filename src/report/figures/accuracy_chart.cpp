@@ -91,13 +91,29 @@ std::vector<std::string> factors_of(const accuracy::AccuracyScene& scene) {
   return factors;
 }
 
+struct FigureSize {
+  double width;
+  double height;
+};
+
+// Returns the size of all diagrams. The legend is above the diagram and may have a line for each
+// family, so diagrams with many families are enlarged: otherwise, the legend would be larger than
+// the diagram.
+FigureSize size_for(std::span<const accuracy::AccuracyScene> scenes) {
+  constexpr std::size_t few_families = 4;
+  const bool few = std::ranges::all_of(scenes, [](const accuracy::AccuracyScene& scene) {
+    return scene.families.size() <= few_families;
+  });
+  return few ? FigureSize{230, 150} : FigureSize{400, 260};
+}
+
 // The figure of one scene on one device: a line for each family, the Pareto front in the colour of
 // the text, and the goals as dashed lines.
 class SceneFigure {
  public:
   // `all` contains the points of all diagrams that have the same axes as this one.
   SceneFigure(const accuracy::AccuracyScene& scene, const std::string& title, Cost cost,
-              std::span<const Figure::Place> all)
+              std::span<const Figure::Place> all, FigureSize size)
       : scene_(scene),
         cost_(cost),
         figure_(title + " on " + scene.device,
@@ -107,7 +123,7 @@ class SceneFigure {
                 {.title = axis_of(cost).title,
                  .logarithmic = true,
                  .contains = coordinates(all, &Figure::Place::y)},
-                230, 150) {}
+                size.width, size.height) {}
 
   [[nodiscard]] Html svg() {
     find_front();
@@ -214,9 +230,10 @@ Html accuracy_chart(std::span<const accuracy::AccuracyScene> scenes, Cost cost) 
       if (const auto place = place_of(each, cost)) places[titles.back()].push_back(*place);
     }
   }
+  const FigureSize size = size_for(scenes);
   std::vector<TitledFigure> all;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
-    Html svg = SceneFigure(scenes[i], titles[i], cost, places[titles[i]]).svg();
+    Html svg = SceneFigure(scenes[i], titles[i], cost, places[titles[i]], size).svg();
     if (!svg.empty()) all.push_back({titles[i] + " on " + scenes[i].device, std::move(svg)});
   }
   return all.empty() ? Html() : figures(all);

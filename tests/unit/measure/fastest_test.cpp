@@ -101,12 +101,16 @@ TEST_F(FastestTest, ReportsUnsupportedTechniques) {
   add("raycast", {1e6});
   record::Record& skipped = add("raycast_fragment", {});
   skipped.outcome = record::Outcome::skipped;
-  EXPECT_THAT(text(), HasSubstr("; not drawn: raycast_fragment"));
+  skipped.reason.detail = "the device lacks fragments" + std::string(200, '.');
+  const std::string reason = "(the device lacks fragments.........";
+  EXPECT_THAT(text(), HasSubstr("; not drawn: raycast_fragment " + reason));
+  EXPECT_EQ(text().find(std::string(100, '.')), std::string::npos) << "the reason is too long";
   records_.front().outcome = record::Outcome::failed;
-  EXPECT_THAT(
-      text(),
-      HasSubstr("no technique was measured, so none can be recommended; not drawn: raycast, "
-                "raycast_fragment"));
+  EXPECT_THAT(text(), HasSubstr("no technique was measured, so none can be recommended; not drawn: "
+                                "raycast (failed); raycast_fragment " +
+                                reason));
+  for (record::Record& record : records_) record.reason.detail = "the same";
+  EXPECT_THAT(text(), HasSubstr("; not drawn: raycast, raycast_fragment (the same)"));
 }
 
 TEST_F(FastestTest, CandidatesForTheFastestAreMeasuredAgain) {

@@ -1,4 +1,8 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <regex>
+#include <utility>
 
 #include "report/figures/accuracy_chart.hpp"
 #include "report/page/page_sections.hpp"
@@ -58,6 +62,30 @@ TEST(AccuracyChart, ShowsOnlyCasesThatFitLogarithmicAxes) {
   EXPECT_THAT(accuracy_chart(scenes, Cost::fetched).text(), HasSubstr("step=2: RMSE 0.004, 5 MiB"));
   EXPECT_THAT(accuracy_chart(scenes, Cost::memory).text(), HasSubstr("step=2: RMSE 0.004, 3 MiB"));
   EXPECT_THAT(accuracy_chart(scenes, Cost::energy).text(), HasSubstr("step=2: RMSE 0.004, 0.25 J"));
+}
+
+// The legend has a line for each family with a long name.
+TEST(AccuracyChart, TheLegendIsSmallerThanTheChart) {
+  accuracy::AccuracyScene scene = some_scene();
+  const std::vector<accuracy::AccuracyCase> cases = std::exchange(scene.cases, {});
+  for (int i = 0; i < 8; ++i) {
+    for (accuracy::AccuracyCase each : cases) {
+      const std::string window = fmt::format("a window with quite a long name, number {}", i);
+      each.factors["window"] = window;
+      each.configuration += ",window=" + window;
+      each.time_ns = *each.time_ns * (1 + i);
+      scene.cases.push_back(std::move(each));
+    }
+  }
+  accuracy::evaluate(scene);
+  ASSERT_EQ(scene.families.size(), 8U);
+  const std::string html = accuracy_chart(std::vector{scene}, Cost::time).text();
+  std::smatch area;
+  ASSERT_TRUE(std::regex_search(
+      html, area,
+      std::regex("class=\"marks\" x=\"\\d+\" y=\"(\\d+)\" width=\"\\d+\" height=\"(\\d+)\"")))
+      << html;
+  EXPECT_LT(std::stoi(area[1]), std::stoi(area[2])) << "the space above the chart, and its height";
 }
 
 // Each axis has its own Pareto front. On the memory axis, the case with the smallest non-zero error
