@@ -70,7 +70,9 @@ TEST(BudgetSearch, FindsTheLongestStepThatMeetsTheError) {
     EXPECT_LE(error_of(*found.cheapest), error) << order;
     EXPECT_GT(found.cheapest->step, first) << order;
     EXPECT_LE(found.cheapest->step, longest) << order;
-    if (order >= 2) EXPECT_GE(found.cheapest->step, longest / std::exp2(0.25)) << order;
+    if (order >= 2) {
+      EXPECT_GE(found.cheapest->step, longest / std::exp2(0.25)) << order;
+    }
     EXPECT_LE(found.measured, 18) << order;
   }
 }

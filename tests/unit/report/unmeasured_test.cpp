@@ -10,7 +10,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-record::Record skipped(const std::string& device, const std::string& detail) {
+record::Record skipped_record(const std::string& device, const std::string& detail) {
   record::Record record;
   record.device = device;
   record.outcome = record::Outcome::skipped;
@@ -28,9 +28,9 @@ TEST(Unmeasured, MeasuredRecordsHaveNoReason) {
 
 TEST(Unmeasured, EqualReasonsAreCountedTogetherAndTheLargestGroupComesFirst) {
   Unmeasured unmeasured;
-  unmeasured.add(skipped("a", "no compute\n"));
-  for (const char* device : {"b", "a", "b"}) unmeasured.add(skipped(device, "no file"));
-  record::Record not_tried = skipped("a", "no file");
+  unmeasured.add(skipped_record("a", "no compute\n"));
+  for (const char* device : {"b", "a", "b"}) unmeasured.add(skipped_record(device, "no file"));
+  record::Record not_tried = skipped_record("a", "no file");
   not_tried.reason.not_tried = true;
   unmeasured.add(not_tried);
   EXPECT_THAT(unmeasured.lines(),
@@ -39,7 +39,8 @@ TEST(Unmeasured, EqualReasonsAreCountedTogetherAndTheLargestGroupComesFirst) {
 
 TEST(Unmeasured, FurtherReasonsAreOnlyCounted) {
   Unmeasured unmeasured;
-  for (int reason = 0; reason < 11; ++reason) unmeasured.add(skipped("a", std::to_string(reason)));
+  for (int reason = 0; reason < 11; ++reason)
+    unmeasured.add(skipped_record("a", std::to_string(reason)));
   const std::vector<std::string> lines = unmeasured.lines();
   ASSERT_THAT(lines, SizeIs(Unmeasured::most_lines + 1));
   EXPECT_THAT(lines.back(), testing::StartsWith("3 more configurations were not measured for 3 "));
