@@ -40,7 +40,7 @@ class Drawing {
 
   // Draws a frame that records the history of pixel (x, y), as measure::PixelTracer describes.
   [[nodiscard]] virtual technique::RayTrace trace(const Api& /*gl*/, int /*x*/, int /*y*/) {
-    throw core::NotSupported(measure::pixel_history_unsupported);
+    throw core::NotSupported(measure::pixel_history_of_device_unsupported);
   }
 };
 

@@ -103,7 +103,7 @@ HistoryText history_of_volume(measure::SuiteWithTruth& suite, const measure::Fra
                               report::PixelInImage pixel) {
   const measure::TracedPixel& traced = drawn.traced.value();
   auto* const expects = dynamic_cast<measure::RayReference*>(&suite);
-  if (expects == nullptr) throw core::NotSupported(measure::pixel_history_unsupported);
+  if (expects == nullptr) throw core::NotSupported(measure::pixel_history_of_suite_unsupported);
   const accuracy::ExpectedRay expected = expects->expected_ray(
       drawn.record.factors, drawn.record.precision, traced.place.x, traced.place.y);
   const accuracy::RayHistory history = accuracy::compare(expected, taken_samples(traced.trace));

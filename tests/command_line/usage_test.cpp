@@ -46,6 +46,16 @@ TEST(Usage, ListShowsAllFactorsOfASuite) {
   }
 }
 
+// The scripted device cannot record the history of a pixel with any quadrature.
+TEST(Usage, AHistoryThatTheDeviceCannotRecordIsNotBlamedOnTheQuadrature) {
+  const Program program;
+  const Result result =
+      program.run(std::string("render volume ") + tiny + " --out frame --pixel 1,1");
+  EXPECT_EQ(result.code, 2) << result.output;
+  EXPECT_EQ(result.output.find("quadrature"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("history of a pixel"), std::string::npos) << result.output;
+}
+
 TEST(Usage, AMissingPlan) {
   const Program program;
   expect_refused(program.run("list volume/quik"), 3, "did you mean 'quick'?");

@@ -20,10 +20,19 @@ struct PixelPlace {
 };
 
 // The message of the exception that PixelTracer::trace() throws for a work whose samples cannot be
-// recorded.
+// recorded, although its technique and backend can record samples.
 inline constexpr const char* pixel_history_unsupported =
     "the history of a pixel cannot be recorded with quadrature=cells; use quadrature=midpoint or "
     "quadrature=preintegrated";
+
+// The message if the device or the suite does not implement the interface below that the history
+// needs.
+inline constexpr const char* pixel_history_of_device_unsupported =
+    "this device cannot record the history of a pixel with this technique; use another technique "
+    "or "
+    "a device of another API";
+inline constexpr const char* pixel_history_of_suite_unsupported =
+    "the reference renderer of this suite cannot compute the history of a pixel";
 
 // A prepared work whose device code has an additional build, which records the samples of one
 // pixel. This build is the counting build (the build that writes Triptych's counters) with

@@ -23,7 +23,7 @@ void require_inside(const core::Image& image, PixelPlace place) {
 
 TracedPixel trace_pixel(Prepared& prepared, PixelPlace place) {
   auto* const tracer = dynamic_cast<PixelTracer*>(&prepared);
-  if (tracer == nullptr) throw core::NotSupported(pixel_history_unsupported);
+  if (tracer == nullptr) throw core::NotSupported(pixel_history_of_device_unsupported);
   prepared.poison();
   technique::RayTrace trace = tracer->trace(place.x, place.y);
   return {.place = place, .trace = std::move(trace), .image = prepared.image(), .sprites = {}};

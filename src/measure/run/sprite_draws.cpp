@@ -110,7 +110,7 @@ accuracy::SpriteHistory sprite_history(Device& device, const Work& work, Suite& 
                                        const ReferenceInput& input, PixelPlace place,
                                        const accuracy::DrawnSurface& whole) {
   auto* const reference = dynamic_cast<SpriteReference*>(&suite);
-  if (reference == nullptr) throw core::NotSupported(pixel_history_unsupported);
+  if (reference == nullptr) throw core::NotSupported(pixel_history_of_suite_unsupported);
   SpriteDraws draws(device, work, *reference, input, place);
   const Particles nearby = draws.nearby();
   accuracy::SpriteHistory history;
