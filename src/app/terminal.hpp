@@ -52,7 +52,8 @@ void print_out(fmt::format_string<Args...> format, Args&&... args) {
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stdout));
 }
 
-// Prints text that already consists of lines. Control characters other than line ends are escaped.
+// Prints text that already consists of lines. Control characters other than line ends
+// and tabs are escaped.
 inline void print_lines(std::string_view text, std::FILE* to = stdout) {
   const std::string lines = core::printable_lines(text);
   static_cast<void>(std::fwrite(lines.data(), 1, lines.size(), to));

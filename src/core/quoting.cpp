@@ -128,8 +128,8 @@ std::string printable_lines(std::string_view text) {
   std::string result;
   result.reserve(text.size());
   while (!text.empty()) {
-    if (text.front() == '\n') {
-      result += '\n';
+    if (text.front() == '\n' || text.front() == '\t') {
+      result += text.front();
       text.remove_prefix(1);
     } else {
       result += take_printable(text);

@@ -33,7 +33,7 @@ namespace triptych::core {
 // so that it has `limit` characters and ends with "…".
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 2000);
 // Makes text safe to print on several lines of a terminal. Like printable(), but keeps line ends
-// and does not cut the text.
+// and tabs, and does not cut the text.
 [[nodiscard]] std::string printable_lines(std::string_view text);
 // Returns the escape that printable() writes instead of a hidden character.
 [[nodiscard]] std::string visible(std::string_view character);

@@ -123,7 +123,7 @@ TEST(Printable, EscapesDirectionMarks) {
 }
 
 TEST(Printable, KeepsLineEnds) {
-  EXPECT_EQ(printable_lines("a\nb\x1b\u202E\n"), "a\nb\\x1b\\u{202e}\n");
+  EXPECT_EQ(printable_lines("a\n\tb\x1b\r\u202E\n"), "a\n\tb\\x1b\\x0d\\u{202e}\n");
 }
 
 TEST(Printable, CutsByCharacters) {
