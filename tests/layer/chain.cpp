@@ -105,7 +105,7 @@ VKAPI_ATTR VkResult VKAPI_CALL create_instance(const VkInstanceCreateInfo* info,
   if (!only_limits && !one_fault) {
     std::fprintf(stderr, "layer: TRIPTYCH_LAYER=%s is neither a list of limits nor a fault\n",
                  requested().c_str());
-    return VK_ERROR_INITIALIZATION_FAILED;
+    return VK_ERROR_VALIDATION_FAILED_EXT;  // by which Triptych recognizes the cause
   }
   const PFN_vkGetInstanceProcAddr below = loader->u.pLayerInfo->pfnNextGetInstanceProcAddr;
   loader->u.pLayerInfo = loader->u.pLayerInfo->pNext;

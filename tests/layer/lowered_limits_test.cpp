@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -156,12 +157,36 @@ TEST_F(LoweredLimits, WallTimeIsUsedWithoutADeviceClock) {
 // calls that exceed a limit. The two limits are set to values that the specification does not
 // permit, so Triptych does not check them and makes such calls.
 TEST_F(LoweredLimits, UseBeyondALimitIsRejected) {
-  EXPECT_THAT(layered.draw("noSuchLimit", volume).output, HasSubstr("no device matches vulkan:*"));
+  const std::string unknown = layered.draw("noSuchLimit", volume).output;
+  EXPECT_THAT(unknown, HasSubstr("no device matches vulkan:*"));
+  EXPECT_THAT(unknown, HasSubstr("TRIPTYCH_LAYER=noSuchLimit"));
   const std::string unchecked = layered.draw("maxImageDimension1D=128", volume).output;
   // Newer versions of Vulkan-Hpp report Device::createImage instead of vkCreateImage.
   EXPECT_THAT(unchecked, HasSubstr("reateImage returned ErrorUnknown"));
   EXPECT_THAT(layered.draw("maxPerStageResources=12", particles).output,
               testing::ContainsRegex("[.]tiles[.][^ ]*[.]v64: failed: "));
+}
+
+// A layer that the loader cannot use must not be ignored, because the results would be attributed
+// to the layer. The folder first lacks the layer, and then contains its description without its
+// library.
+TEST_F(LoweredLimits, AMissingLayerIsAnError) {
+  const test::TemporaryFolder folder;
+  const auto expect_reason = [&](const std::string& variables, const std::string& reason) {
+    const test::Result result = test::run_command(fmt::format(
+        "cd '{0}' && TRIPTYCH_DATA= VK_LAYER_PATH='{0}' {1} '{2}' run '{3}/volume.yaml' "
+        "--untimed --device 'vulkan:*' --store s.sqlite",
+        folder.path().string(), variables, TRIPTYCH_PROGRAM, TRIPTYCH_LAYER_PLANS));
+    EXPECT_EQ(result.code, 2) << result.output;
+    EXPECT_THAT(result.output, HasSubstr(reason));
+  };
+  expect_reason("TRIPTYCH_LAYER=half_pixel", "TRIPTYCH_LAYER=half_pixel");
+  const std::string requested =
+      "TRIPTYCH_LAYER=half_pixel VK_INSTANCE_LAYERS=VK_LAYER_TRIPTYCH_test";
+  expect_reason(requested, folder.path().string());
+  std::filesystem::copy_file(std::filesystem::path(TRIPTYCH_LAYER_FOLDER) / "triptych_layer.json",
+                             folder.path() / "triptych_layer.json");
+  expect_reason(requested, "--target triptych_layer");
 }
 
 }  // namespace

@@ -119,7 +119,7 @@ void list_compiler(const std::string& id, Listing& listing) {
 
 // Throws an error that states why no device in the listing matches `glob`.
 [[noreturn]] void throw_no_match(const Listing& listing, std::string_view glob) {
-  if (listing.devices.empty()) {
+  if (listing.devices.empty() && listing.broken.empty()) {
     throw core::NotSupported(fmt::format(
         "no device matches {}, because no installed driver provides a device; run ci/setup to "
         "install software drivers, or `triptych devices` to print what each loader found",
@@ -200,6 +200,7 @@ std::vector<std::string> unmatched(const Listing& listing, const std::vector<std
 std::string available_devices(const Listing& listing) {
   std::string known;
   for (const record::Device& device : listing.devices) known += " " + device.id;
+  if (known.empty()) known = " none";
   for (const Broken& each : listing.broken) {
     known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",
                          each.reason);
@@ -208,6 +209,9 @@ std::string available_devices(const Listing& listing) {
     if (each.ended && !each.ended->last_output.empty()) {
       known += fmt::format(" (its last output: {})", each.ended->last_output);
     }
+  }
+  if (listing.devices.empty()) {
+    known += "; if no driver is installed, run ci/setup to install software drivers";
   }
   return known;
 }

@@ -58,6 +58,9 @@ TEST(ChooseDevices, EachGlobMustMatchADevice) {
             "no device matches vulkan:*; available devices: opencl:pocl gl:llvmpipe gl:softpipe; "
             "Vulkan: no loader");
   EXPECT_THAT(refusal({}, "*"), HasSubstr("no installed driver provides"));
+  // If every device is missing, the error states the reasons that the drivers reported.
+  EXPECT_THAT(refusal({.devices = {}, .broken = some_listing().broken}, "*"),
+              HasSubstr("Vulkan: no loader"));
 }
 
 // The gate must read a glob in the same way. Otherwise it would not know which devices were
