@@ -27,6 +27,19 @@ TEST(Faults, AHangCostsOneConfiguration) {
   EXPECT_NE(result.output.find("hung"), std::string::npos) << result.output;
 }
 
+// The names of Triptych's functions are in the stack only if the program exports them.
+TEST(Faults, ACrashAndAHangAreReportedWithTheNamesOfTheFunctions) {
+  const Program program;
+  for (const char* fault : {"crash", "hang"}) {
+    const Result result = program.run(std::string("render volume ") + tiny +
+                                      " --out frame --limit 2 --inject " + fault);
+    EXPECT_EQ(result.code, 3) << result.output;
+    for (const char* function : {"libc", "triptych7measure6inject", "serve_worker"}) {
+      EXPECT_NE(result.output.find(function), std::string::npos) << fault << result.output;
+    }
+  }
+}
+
 // The plan's level "haze" is a default, so it does not appear in the name of any configuration, and
 // a pattern that contains "haze" matches nothing.
 TEST(Faults, AFaultWithoutEffectIsReported) {

@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/glob.hpp"
+#include "measure/system/crash_trace.hpp"
 #include "record/factor_list.hpp"
 
 namespace triptych::measure {
@@ -80,9 +81,9 @@ bool has_levels(const std::string& configuration, const std::string& levels) {
 }
 
 [[noreturn]] void crash() {
-  // Restores the default action, because a sanitizer's handler would exit with a code instead of
-  // ending the process with a signal.
-  std::signal(SIGSEGV, SIG_DFL);
+  // Replaces a sanitizer's handler, which would exit with a code instead of ending the process with
+  // a signal.
+  install_stack_trace_handlers();
   std::raise(SIGSEGV);
   std::abort();
 }

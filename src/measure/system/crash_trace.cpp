@@ -1,11 +1,13 @@
 #include "measure/system/crash_trace.hpp"
 
+#include <dlfcn.h>
 #include <execinfo.h>
 #include <unistd.h>
 
 #include <array>
 #include <csignal>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <string_view>
 
@@ -23,17 +25,45 @@ void write_to_stderr(std::string_view text) {
   static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size()));
 }
 
-// Writes the call stack. Calls only functions that are safe in a signal handler. The first call of
-// backtrace() loads a library, so install_stack_trace_handlers() calls it once before any signal
-// arrives.
+void write_hexadecimal(std::uintptr_t number) {
+  std::array<char, 2 * sizeof number> digits{};
+  std::size_t first = digits.size();
+  do {
+    digits.at(--first) = "0123456789abcdef"[number % 16];
+    number /= 16;
+  } while (number != 0);
+  write_to_stderr("0x");
+  write_to_stderr({digits.data() + first, digits.size() - first});
+}
+
+// Writes "library(function+offset)", or "library(+offset)" if the library does not export the
+// function. Both have the same value in every process, unlike the address.
+void write_frame(const void* address) {
+  const auto at = reinterpret_cast<std::uintptr_t>(address);
+  Dl_info info{};
+  if (::dladdr(address, &info) == 0 || info.dli_fname == nullptr) {
+    write_hexadecimal(at);
+    return write_to_stderr("\n");
+  }
+  const std::string_view path = info.dli_fname;
+  write_to_stderr(path.substr(path.rfind('/') + 1));
+  write_to_stderr("(");
+  if (info.dli_sname != nullptr) write_to_stderr(info.dli_sname);
+  write_to_stderr("+");
+  write_hexadecimal(at - reinterpret_cast<std::uintptr_t>(
+                             info.dli_sname != nullptr ? info.dli_saddr : info.dli_fbase));
+  write_to_stderr(")\n");
+}
+
+// Writes the innermost frames of the call stack. Allocates no memory. The first call of backtrace()
+// loads a library, so install_stack_trace_handlers() calls it once before any signal arrives.
 void write_stack() {
-  constexpr int most_frames = 24;
   constexpr int own_frames = 3;  // this function, the handler and the kernel's trampoline
-  std::array<void*, most_frames> frames{};
-  const int count = ::backtrace(frames.data(), most_frames);
+  std::array<void*, own_frames + most_traced_frames> frames{};
+  const int count = ::backtrace(frames.data(), static_cast<int>(frames.size()));
   if (count <= own_frames) return;
   write_to_stderr("stack of the thread, innermost frame first:\n");
-  ::backtrace_symbols_fd(frames.data() + own_frames, count - own_frames, STDERR_FILENO);
+  for (int i = own_frames; i < count; ++i) write_frame(frames.at(static_cast<std::size_t>(i)));
 }
 
 void on_error(int signal) {

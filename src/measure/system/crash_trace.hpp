@@ -2,8 +2,13 @@
 
 namespace triptych::measure {
 
+// The maximum number of frames in a call stack. The innermost frames are written, because they show
+// where the driver is.
+inline constexpr int most_traced_frames = 20;
+
 // Installs signal handlers that write the call stack of the thread to stderr, one frame per line,
-// with the names of exported functions where they are known. The handlers run if an error signal
+// with the names of exported functions where they are known. src/app/exported.list exports the
+// functions of Triptych. The handlers run if an error signal
 // (SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT) ends the process. The handler for SIGUSR2 also writes
 // the call stack but does not end the process. The supervisor sends SIGUSR2 to find out where a
 // process hangs. If a driver installs its own handlers, they replace these handlers.

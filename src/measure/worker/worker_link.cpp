@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "measure/system/crash_trace.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -242,7 +243,8 @@ void WorkerLink::wait_for_interrupt() {
 }
 
 std::string WorkerLink::last_output() const {
-  constexpr std::size_t lines = 12;  // enough for a part of a call stack
+  // Enough for a call stack, its heading, and three messages before it.
+  constexpr std::size_t lines = most_traced_frames + 4;
   return log_.last_lines(lines);
 }
 
