@@ -30,11 +30,10 @@ void add_surface(Observation& observation, const accuracy::ImageComparison::Surf
   set_number(observation, "depth_bound", first.bound);
 }
 
-// Adds the rectangle that contains all wrong pixels if it is at most half as large as the image.
+// Adds the rectangle that contains all wrong pixels.
 void add_place(Observation& observation, const accuracy::ImageComparison& comparison) {
   const auto& [left, top, right, bottom] = comparison.wrong_area;
-  const double area = (right - left + 1.0) * (bottom - top + 1.0);
-  if (left < 0 || 2 * area > static_cast<double>(comparison.pixels)) return;
+  if (left < 0) return;
   set_number(observation, "wrong_left", left);
   set_number(observation, "wrong_top", top);
   set_number(observation, "wrong_right", right);
@@ -52,6 +51,9 @@ Observation image_observation(const accuracy::ImageComparison& comparison, const
   }
   set_number(observation, "pixels", static_cast<double>(comparison.pixels));
   set_number(observation, "max_error", comparison.largest.error);
+  set_number(observation, "max_error_bound", comparison.largest.bound);
+  set_number(observation, "max_error_x", comparison.largest.x);
+  set_number(observation, "max_error_y", comparison.largest.y);
   set_number(observation, "error", comparison.worst.error);
   set_number(observation, "bound", comparison.worst.bound);
   set_number(observation, "ratio", comparison.worst.ratio);

@@ -11,13 +11,19 @@ namespace {
 
 using judge::Observation;
 
+// Names the pixel with the largest error and, if it is another one, the pixel with the largest
+// ratio of error to bound.
 std::string largest_errors(const Observation& what) {
-  const bool within = what.cause == judge::Cause::within_bound;
-  return fmt::format(
-      "largest error {:.3g}, RMSE {:.3g}; the {} is ({:.0f}, {:.0f}): error {:.3g}, bound {:.3g}",
-      what.number("max_error"), what.number("rmse"),
-      within ? "pixel closest to its bound" : "worst pixel", what.number("x"), what.number("y"),
-      what.number("error"), what.number("bound"));
+  const auto pixel = [&](const std::string& name, const std::string& error,
+                         const std::string& bound) {
+    return fmt::format("{:.3g} at pixel ({:.0f}, {:.0f}), bound {:.3g}", what.number(error),
+                       what.number(name + "x"), what.number(name + "y"), what.number(bound));
+  };
+  const std::string largest = pixel("max_error_", "max_error", "max_error_bound");
+  const std::string worst = pixel("", "error", "bound");
+  std::string text = "largest error " + largest;
+  if (worst != largest) text += "; largest error relative to the bound " + worst;
+  return text + fmt::format("; RMSE {:.3g}", what.number("rmse"));
 }
 
 std::string particle(const Observation& what, const std::string& name) {
@@ -31,12 +37,18 @@ std::string colour(const Observation& what, const std::string& prefix) {
                      what.number(prefix + "alpha"));
 }
 
-// Returns where the wrong pixels are, or "" if they are spread over more than half of the image.
+// Returns "column 5" or "columns 5 to 7".
+std::string lines(std::string_view name, double first, double last) {
+  return first == last ? fmt::format("{} {:.0f}", name, first)
+                       : fmt::format("{}s {:.0f} to {:.0f}", name, first, last);
+}
+
+// Returns where the wrong pixels are.
 std::string place(const Observation& what) {
   if (!what.numbers.contains("wrong_left")) return {};
-  return fmt::format("; all wrong pixels are in columns {:.0f} to {:.0f} and rows {:.0f} to {:.0f}",
-                     what.number("wrong_left"), what.number("wrong_right"),
-                     what.number("wrong_top"), what.number("wrong_bottom"));
+  return fmt::format("; all wrong pixels are in {} and {}",
+                     lines("column", what.number("wrong_left"), what.number("wrong_right")),
+                     lines("row", what.number("wrong_top"), what.number("wrong_bottom")));
 }
 
 }  // namespace
@@ -72,13 +84,16 @@ std::string not_finite(const Observation& what) {
 
 std::string other_surface(const Observation& what) {
   return fmt::format(
-      "{:.0f} of {:.0f} pixels show a different particle than {}, and {:.0f} more show the correct "
-      "particle at a wrong depth; the first is pixel ({:.0f}, {:.0f}): {} at depth {:.6g}, "
-      "expected {} at {:.6g} ± {:.3g}",
-      what.number("pixels_of_another_particle"), what.number("pixels"), text_of(what.against),
-      what.number("pixels_at_another_depth"), what.number("x"), what.number("y"),
-      particle(what, "particle"), what.number("depth"), particle(what, "expected_particle"),
-      what.number("expected_depth"), what.number("depth_bound"));
+             "{:.0f} of {:.0f} pixels show a different particle than {}, and {:.0f} more show the "
+             "correct "
+             "particle at a wrong depth; the first is pixel ({:.0f}, {:.0f}): {} at depth {:.6g}, "
+             "expected {} at {:.6g} ± {:.3g}",
+             what.number("pixels_of_another_particle"), what.number("pixels"),
+             text_of(what.against), what.number("pixels_at_another_depth"), what.number("x"),
+             what.number("y"), particle(what, "particle"), what.number("depth"),
+             particle(what, "expected_particle"), what.number("expected_depth"),
+             what.number("depth_bound")) +
+         place(what);
 }
 
 std::string size_differs(const Observation& what) {

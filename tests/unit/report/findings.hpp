@@ -31,10 +31,13 @@ namespace triptych::report {
           .numbers = {{"pixels_over", pixels},
                       {"pixels", 36864},
                       {"max_error", 0.25},
+                      {"max_error_bound", 0.125},
+                      {"max_error_x", 3},
+                      {"max_error_y", 4},
                       {"rmse", 0.0625},
                       {"x", 7},
                       {"y", 9},
-                      {"error", 0.25},
+                      {"error", 0.01},
                       {"bound", 0.001}}};
 }
 
