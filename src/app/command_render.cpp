@@ -50,8 +50,9 @@ core::ExitCode compare_with_reference(const core::Image& image, const judge::Tru
   const report::ReferenceComparison comparison = report::write_difference(out, image, pair);
   if (comparison.has_difference) {
     print_out(
-        "{}: black means no error, white an error equal to the pixel's bound, cyan a larger "
-        "error\n",
+        "{}: black means no error, white an error equal to the pixel's bound, azure to cyan a "
+        "larger "
+        "error (logarithmic scale)\n",
         (out / "difference.png").string());
   }
   print_lines(report::words::text_of(comparison.what) + "\n");

@@ -46,7 +46,7 @@ constexpr std::array files{
     File{
         "difference.png",
         "the error relative to the error bound of each pixel: black means no error, white means an "
-        "error equal to the bound, and cyan means a larger error"},
+        "error equal to the bound, and azure to cyan a larger error, on a logarithmic scale"},
     File{"dump",
          "everything that the driver receives: device code, options and buffers; for some "
          "techniques, also a C program that draws the frame; `compile.sh` compiles the device "

@@ -26,15 +26,22 @@ double share_at(const Image& image, const Image& truth, const Image& bound, std:
   return share;
 }
 
-void paint(Image& shares, std::size_t i, double share) {
+// `largest` is the largest finite share of the image.
+void paint(Image& shares, std::size_t i, double share, double largest) {
   const auto ramp = [&](double from, double to) {
     return static_cast<float>(std::clamp((share - from) / (to - from), 0.0, 1.0));
   };
-  const bool beyond = share > 1;
-  shares.rgba[i] = beyond ? 0 : ramp(0.2, 0.7);
-  shares.rgba[i + 1] = beyond ? 1 : ramp(0.3, 1.0);
-  shares.rgba[i + 2] = beyond ? 1 : std::max(0.4F * ramp(0.0, 0.2), ramp(0.8, 1.0));
   shares.rgba[i + 3] = 1;
+  if (share > 1) {
+    const double excess = share < largest ? std::log(share) / std::log(largest) : 1.0;
+    shares.rgba[i] = 0;
+    shares.rgba[i + 1] = static_cast<float>(0.2 + 0.8 * excess);
+    shares.rgba[i + 2] = 1;
+    return;
+  }
+  shares.rgba[i] = ramp(0.2, 0.7);
+  shares.rgba[i + 1] = ramp(0.3, 1.0);
+  shares.rgba[i + 2] = std::max(0.4F * ramp(0.0, 0.2), ramp(0.8, 1.0));
 }
 
 // A pixel whose error exceeds its bound.
@@ -61,11 +68,18 @@ std::vector<ShareOfBound::Mark> spread_out(std::vector<WrongPixel> beyond, int d
 
 ShareOfBound share_of_bound(const Image& image, const Image& truth, const Image& bound) {
   ShareOfBound result{.image = Image(image.width, image.height)};
+  std::vector<double> shares;
+  for (std::size_t i = 0; i < result.image.rgba.size(); i += 4) {
+    shares.push_back(share_at(image, truth, bound, i));
+    if (std::isfinite(shares.back())) {
+      result.largest_finite = std::max(result.largest_finite, shares.back());
+    }
+  }
   double largest = 0;
   std::vector<WrongPixel> beyond;
   for (std::size_t i = 0; i < result.image.rgba.size(); i += 4) {
-    const double share = share_at(image, truth, bound, i);
-    paint(result.image, i, share);
+    const double share = shares[i / 4];
+    paint(result.image, i, share, result.largest_finite);
     const int pixel = static_cast<int>(i / 4);
     if (share > 1) beyond.push_back({share, {pixel % image.width, pixel / image.width}});
     if (share <= largest) continue;

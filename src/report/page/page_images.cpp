@@ -118,9 +118,10 @@ ImagesSection images_section(const PanelSources& sources, std::span<const PlanDa
       "double "
       "precision with the same sample positions. The difference image shows the error of each "
       "pixel "
-      "as a share of the pixel’s bound: 0 <span class=\"ramp\"></span> the bound, <span "
-      "class=\"beyond\"></span> beyond the bound. Rings mark the worst pixels beyond the "
-      "bound.</p>");
+      "as a share of the pixel’s bound: 0 <span class=\"ramp\"></span> the bound. If the error "
+      "exceeds "
+      "the bound: slightly <span class=\"beyond\"></span> by the largest factor in the image, on a "
+      "logarithmic scale. Rings mark the worst pixels beyond the bound.</p>");
   const std::size_t shown = std::min(max_visible_scenes, scenes.size());
   const bool any_wrong = scenes.front().wrong();
   Html rest;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace triptych::report {
 namespace {
@@ -55,9 +56,14 @@ TEST(ShareOfBound, PixelsBeyondTheBoundAreDistinguishable) {
   const auto color = [](float error) {
     return share_of_bound(constant(0.5F + error), constant(0.5F), constant(0.25F)).image;
   };
-  const core::Image beyond = color(0.3F);
-  for (int i = 0; i <= 20; ++i) {
-    const core::Image within = color(0.25F * static_cast<float>(i) / 20);
+  core::Image slightly = constant(0.75F);
+  set(slightly, 0, 0, 0.76F);
+  set(slightly, 1, 0, 1.0F);
+  slightly = share_of_bound(slightly, constant(0.5F), constant(0.25F)).image;
+  const std::vector<core::Image> all_beyond{color(0.3F), slightly};
+  for (int i = 0; i <= 40; ++i) {
+    const core::Image& beyond = all_beyond.at(static_cast<std::size_t>(i) / 21);
+    const core::Image within = color(0.25F * static_cast<float>(i % 21) / 20);
     const auto lightness = [](const core::Image& image) {
       return 0.2126 * image.rgba[0] + 0.7152 * image.rgba[1] + 0.0722 * image.rgba[2];
     };
@@ -68,6 +74,25 @@ TEST(ShareOfBound, PixelsBeyondTheBoundAreDistinguishable) {
         std::hypot(lightness(within) - lightness(beyond), blue(within) - blue(beyond));
     EXPECT_GT(distance, 0.3) << i;
   }
+}
+
+// Errors of 2, 8 and 32 times the bound have the same distance in the image. A pixel whose bound is
+// 0 has an infinite share, which does not change the scale.
+TEST(ShareOfBound, ErrorsBeyondTheBoundAreOnALogarithmicScale) {
+  core::Image image = constant(0.5F);
+  core::Image bound = constant(0.0078125F);
+  set(image, 1, 0, 0.515625F);
+  set(image, 2, 0, 0.5625F);
+  set(image, 3, 0, 0.75F);
+  set(image, 4, 0, 0.6F);
+  set(bound, 4, 0, 0);
+  const ShareOfBound shares = share_of_bound(image, constant(0.5F), bound);
+  EXPECT_EQ(shares.largest_finite, 32);
+  const auto green = [&](int x) { return shares.image.pixel(x, 0).at(1); };
+  EXPECT_NEAR(green(2) - green(1), green(3) - green(2), 1e-6);
+  EXPECT_NEAR(green(2) - green(1), 0.32, 1e-6);
+  EXPECT_EQ(green(3), 1);
+  EXPECT_EQ(green(4), 1);
 }
 
 }  // namespace
