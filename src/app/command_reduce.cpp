@@ -179,6 +179,7 @@ core::ExitCode finish_report(const Search& search, report::BugReport report,
     report.files.push_back(std::move(file));
   }
   core::write_text(search.out / "README.md", report::markdown(report));
+  print_device(report.device);
   print_lines(
       fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames, found,
                   report.complete ? "" : "; the search stopped at the limit set by --frames",

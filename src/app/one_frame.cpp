@@ -1,5 +1,6 @@
 #include "app/one_frame.hpp"
 
+#include "app/terminal.hpp"
 #include "core/output_files.hpp"
 #include "measure/worker/listing.hpp"
 
@@ -38,6 +39,11 @@ OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments)
   return {
       suite, std::move(plan),
       measure::choose_device(registry.devices({arguments.device}), "--device", arguments.device)};
+}
+
+void print_device(const record::Device& device) {
+  print_out("{}: {}, driver {}{}\n", device.id, device.name, device.driver_version,
+            device.compiles_for.empty() ? "" : "; compiles code but cannot execute it");
 }
 
 }  // namespace triptych::app

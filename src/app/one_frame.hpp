@@ -38,4 +38,8 @@ struct ChosenData {
 // the data exist. Throws IoError if the output folder cannot be written.
 [[nodiscard]] OneFrame choose_frame(const Registry& registry, const FrameArguments& arguments);
 
+// Prints the driver and its version in one line, so that users notice if another driver was used
+// than they expected.
+void print_device(const record::Device& device);
+
 }  // namespace triptych::app

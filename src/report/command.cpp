@@ -46,6 +46,15 @@ std::map<std::string, std::string> allowed_environment(
   return environment;
 }
 
+std::vector<std::string> omitted_variables(const std::map<std::string, std::string>& environment) {
+  const std::map<std::string, std::string> allowed = allowed_environment(environment);
+  std::vector<std::string> names;
+  for (const auto& [name, value] : environment) {
+    if (!allowed.contains(name)) names.push_back(name);
+  }
+  return names;
+}
+
 std::string text_of(const Command& command) {
   std::vector<std::string> words{"triptych", command.command, command.object};
   if (!command.device.empty()) words.insert(words.end(), {"--device", command.device});

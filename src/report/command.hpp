@@ -31,6 +31,10 @@ struct Command {
 [[nodiscard]] std::map<std::string, std::string> allowed_environment(
     std::map<std::string, std::string> environment);
 
+// Returns the names of the variables that allowed_environment() removes.
+[[nodiscard]] std::vector<std::string> omitted_variables(
+    const std::map<std::string, std::string>& environment);
+
 // Returns the command as shell input.
 [[nodiscard]] std::string text_of(const Command& command);
 

@@ -47,6 +47,15 @@ TEST(Reduce, ACrashIsReducedToWhatItRequires) {
   EXPECT_THAT(again.output, HasSubstr("SIGABRT"));
 }
 
+// Otherwise, users would not notice that a command used another driver than the finding.
+TEST(Reduce, TheDriverIsPrintedByEveryCommandThatDraws) {
+  const Program program;
+  const std::string drawn = "volume --device null:scripted --set viewport=8 --out f";
+  for (const std::string command : {"render ", "render --in-process ", "reduce "}) {
+    EXPECT_THAT(program.run(command + drawn).output, HasSubstr("null:scripted: ")) << command;
+  }
+}
+
 TEST(Reduce, TheFolderContainsEverythingForABugReport) {
   const Program program;
   const Result result = program.run(scene + "--set viewport=8", failing("crash", "none"));

@@ -15,6 +15,7 @@
 #include "core/quoting.hpp"
 #include "judge/baselines/waiver_values.hpp"
 #include "judge/gate/run_view.hpp"
+#include "record/driver_variables.hpp"
 
 namespace triptych::judge {
 namespace {
@@ -293,7 +294,10 @@ std::string other_programs(const RunView& view) {
 
 void report_run_contents(const RunView& view, GateResult& result) {
   for (const record::Record* record : view.measured) result.devices.insert(record->device);
-  for (const auto& [id, device] : view.devices) result.environments[id] = device.environment;
+  for (const auto& [id, device] : view.devices) {
+    result.environments[id] = device.environment;
+    result.environments[id].merge(record::driver_variables_of(view.run.system, device.api));
+  }
   for (const record::RunStart& each : view.run.begun) {
     result.unusable.insert(result.unusable.end(), each.unusable.begin(), each.unusable.end());
   }

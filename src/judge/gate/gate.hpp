@@ -42,8 +42,8 @@ struct GateResult {
   std::set<std::string> devices = {};  // requested devices with at least one measurement
   // The devices of the run that the store describes, by id.
   std::map<std::string, TestedDevice> tested = {};
-  // The environment variables with which each device was measured, by device id. Printed commands
-  // set them again.
+  // The environment variables with which each device was measured, including those that select its
+  // driver, by device id. Printed commands set them again.
   std::map<std::string, std::map<std::string, std::string>> environments = {};
   std::string argument = {};                         // copied from the request
   std::map<std::string, std::string> defaults = {};  // copied from the request

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <string_view>
 
 #include "measure/system/cpu_features.hpp"
+#include "record/driver_variables.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -92,6 +94,10 @@ std::map<std::string, std::string> system_facts() {
   if (utsname names{}; ::uname(&names) == 0) {
     facts["host"] = names.nodename;
     facts["kernel"] = fmt::format("{} {} {}", names.sysname, names.release, names.machine);
+  }
+  for (const record::DriverVariable& each : record::driver_variables) {
+    const std::string name(each.name);
+    if (const char* value = std::getenv(name.c_str())) facts[name] = value;
   }
   std::erase_if(facts, [](const auto& fact) { return fact.second.empty(); });
   return facts;

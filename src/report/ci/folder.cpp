@@ -16,6 +16,7 @@
 #include "report/finding_groups.hpp"
 #include "report/overview.hpp"
 #include "report/words/cause.hpp"
+#include "report/words/command_note.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::report {
@@ -37,6 +38,7 @@ std::string details_of(const FindingGroup& group, const judge::GateResult& resul
     lines.push_back(fmt::format("key of {}: {}", record::short_name(key), key));
   }
   lines.push_back(command_of(*group.first, result));
+  lines.push_back(words::command_note(*group.first, result));
   std::string text;
   for (const std::string& line : lines) {
     if (!line.empty()) text += fmt::format("{:13}{}\n", "", core::printable(line));

@@ -9,6 +9,7 @@
 #include "record/short_name.hpp"
 #include "report/finding_groups.hpp"
 #include "report/html.hpp"
+#include "report/words/command_note.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::report {
@@ -91,7 +92,10 @@ std::string Junit::test_case(const Finding& finding, const judge::GateResult& re
   text += properties(finding);
   const std::string message = escape(words::text_of(finding));
   if (is_open(finding)) {
-    const std::string command = escape(command_of(finding, result));
+    std::string command = escape(command_of(finding, result));
+    if (const std::string note = words::command_note(finding, result); !note.empty()) {
+      command += "\n" + escape(note);
+    }
     text += fmt::format("      <{0} type=\"{1}\" message=\"{2}\">{2}{3}{4}</{0}>\n",
                         finding.verdict == Verdict::regression ? "failure" : "error",
                         judge::topic_of(finding), message, command.empty() ? "" : "\n", command);

@@ -9,6 +9,7 @@
 #include "core/quoting.hpp"
 #include "report/overview.hpp"
 #include "report/words/cause.hpp"
+#include "report/words/command_note.hpp"
 
 namespace triptych::report {
 namespace {
@@ -47,7 +48,11 @@ std::string item(const Cause& cause) {
                                  judge::topic_of(first), markdown_escaped(words::location(cause)),
                                  markdown_escaped(words::text_of(cause)));
   const std::string command = command_of(first, *cause.result);
-  if (!command.empty() && command.size() < max_listed_command) text += fenced(command, "  ");
+  if (command.empty() || command.size() >= max_listed_command) return text;
+  text += fenced(command, "  ");
+  if (const std::string note = words::command_note(first, *cause.result); !note.empty()) {
+    text += fmt::format("  {}\n", markdown_escaped(note));
+  }
   return text;
 }
 

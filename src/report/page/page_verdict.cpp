@@ -18,6 +18,7 @@
 #include "report/page/page_frame.hpp"
 #include "report/page/page_sections.hpp"
 #include "report/words/cause.hpp"
+#include "report/words/command_note.hpp"
 
 namespace triptych::report {
 namespace {
@@ -248,6 +249,10 @@ std::string checks_of(const Cause& cause) {
   return fmt::format("{}", fmt::join(checks, " "));
 }
 
+Html note_block(const std::string& note) {
+  return note.empty() ? Html() : markup("<p class=\"system\">{}</p>", note);
+}
+
 Html article(const Cause& cause, const PlanData& plan, const Html& id) {
   const Finding& first = *cause.group.first;
   const std::string command = command_of(first, *cause.result);
@@ -264,7 +269,8 @@ Html article(const Cause& cause, const PlanData& plan, const Html& id) {
           ? Html()
           : markup("<p class=\"system\">{}{}</p>", several ? "the smallest configuration: " : "",
                    breakable(first.configuration)),
-      command_block(command), checks_of(cause));
+      command_block(command) + note_block(words::command_note(first, *cause.result)),
+      checks_of(cause));
 }
 
 // Returns the causes. If `first_number` is set, they get element ids that contain their numbers.

@@ -10,6 +10,7 @@
 #include "record/short_name.hpp"
 #include "report/overview.hpp"
 #include "report/words/cause.hpp"
+#include "report/words/command_note.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::report {
@@ -212,6 +213,8 @@ class Screen {
                        "");
       }
       append_wrapped(lines, command, " \\");
+      const std::string note = words::command_note(first, *cause.result);
+      if (!note.empty()) append_wrapped(lines, core::printable("(" + note + ")"), "");
     }
     return lines;
   }

@@ -23,6 +23,22 @@ TEST_F(GateTest, JudgingAStoreTwiceGivesTheSameBytes) {
   EXPECT_EQ(text(gate("b")), text(gate("b")));
 }
 
+// Printed commands set these variables again, or name the ones that they leave out.
+TEST_F(GateTest, AResultContainsTheVariablesThatSelectedTheDrivers) {
+  accept_first();
+  add_run("b");
+  record::Run run = store_.runs().back();
+  run.system = {{"os", "Debian"}, {"LD_LIBRARY_PATH", "/next"}, {"OCL_ICD_VENDORS", "/vendors"}};
+  store_.add_run(run);
+  const GateResult result = gate("b");
+  ASSERT_FALSE(result.environments.empty());
+  for (const auto& [device, environment] : result.environments) {
+    EXPECT_EQ(environment.at("LD_LIBRARY_PATH"), "/next") << device;
+    EXPECT_EQ(environment.contains("OCL_ICD_VENDORS"), device.starts_with("opencl:")) << device;
+    EXPECT_FALSE(environment.contains("os")) << device;
+  }
+}
+
 // Counters
 
 TEST_F(GateTest, OneMoreSampleOnTheSameDeviceIsARegression) {

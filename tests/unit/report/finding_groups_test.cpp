@@ -7,6 +7,7 @@
 
 #include "findings.hpp"
 #include "report/command.hpp"
+#include "report/words/command_note.hpp"
 
 namespace triptych::report {
 namespace {
@@ -236,6 +237,22 @@ TEST(AllowedEnvironment, ContainsNoVariableThatCouldRunCodeOrWriteFiles) {
   quick.environments = {{"gl:x", {{"LD_PRELOAD", "evil.so"}, {"LP_X;id", "1"}}}};
   EXPECT_THAT(command_of(finding(regression, "gl:x", "step=1"), quick),
               testing::StartsWith("triptych render volume"));
+}
+
+// The driver version is stated because a command without these variables may use another driver.
+TEST(CommandNote, NamesTheVariablesThatTheCommandLeavesOut) {
+  const Finding wrong = finding(regression, "gl:x", "step=1");
+  judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
+  quick.environments = {{"gl:x", {{"LP_NUM_THREADS", "1"}, {"TRIPTYCH_UNSET_VARIABLE", "/mine"}}}};
+  quick.tested["gl:x"].driver_version = "Mesa 25.0.7";
+  EXPECT_THAT(words::command_note(wrong, quick),
+              testing::AllOf(HasSubstr("TRIPTYCH_UNSET_VARIABLE"), HasSubstr("Mesa 25.0.7"),
+                             Not(HasSubstr("LP_NUM_THREADS"))));
+  ::setenv("TRIPTYCH_UNSET_VARIABLE", "/mine", 1);
+  EXPECT_EQ(words::command_note(wrong, quick), "");
+  ::unsetenv("TRIPTYCH_UNSET_VARIABLE");
+  EXPECT_EQ(words::command_note(finding(regression, "gl:x", ""), quick), "")
+      << "there is no command";
 }
 
 TEST(CommandOf, RendersTheConfiguration) {

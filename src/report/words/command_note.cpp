@@ -1,0 +1,32 @@
+// The sentence about environment variables that a printed command leaves out.
+
+#include "report/words/command_note.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "report/command.hpp"
+#include "report/finding_groups.hpp"
+
+namespace triptych::report::words {
+
+std::string command_note(const judge::Finding& finding, const judge::GateResult& result) {
+  const auto set = result.environments.find(finding.device);
+  if (set == result.environments.end() || command_of(finding, result).empty()) return {};
+  const std::vector<std::string> names = omitted_variables(set->second);
+  if (names.empty()) return {};
+  std::string text = fmt::format(
+      "{} {} set during the measurement, but the command does not set {}, because {} could load "
+      "other "
+      "code",
+      fmt::join(names, ", "), names.size() == 1 ? "was" : "were", names.size() == 1 ? "it" : "them",
+      names.size() == 1 ? "it" : "they");
+  if (const auto device = result.tested.find(finding.device); device != result.tested.end()) {
+    text += fmt::format("; the command must use driver version {}", device->second.driver_version);
+  }
+  return text;
+}
+
+}  // namespace triptych::report::words
