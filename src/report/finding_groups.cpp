@@ -309,6 +309,19 @@ void make_gate_command(const Finding& finding, const judge::GateResult& result, 
   }
 }
 
+// Creates a command that prints the stored statistics next to the statistics of the compiled code,
+// because nothing is drawn for the check `code`.
+void make_code_command(const judge::GateResult& result, Command& command) {
+  command.command = "code";
+  command.more = {"--brief"};
+  if (result.plan != command.object + "/code") {
+    command.more.insert(command.more.end(), {"--stored", result.plan});
+  }
+  if (!result.baselines.empty()) {
+    command.more.insert(command.more.end(), {"--baselines", result.baselines});
+  }
+}
+
 // Returns whether a command can name the plan. A plan from a file is named by its path, which a
 // store does not contain.
 bool can_name_plan(const judge::GateResult& result) {
@@ -404,11 +417,11 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
                   .injected = finding.injected,
                   .limit = finding.reason.limit(),
                   .more = {"--truth", "--out", "repro"}};
-  // Nothing is drawn for the check `code`, so the command prints the compiled code and its
-  // statistics.
+  if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {
+    command.environment = allowed_environment(set->second);
+  }
   if (finding.check == Check::code) {
-    command.command = "code";
-    command.more.clear();
+    make_code_command(result, command);
     return text_of(command);
   }
   // --limit does not apply, because counting instructions has its own time limit.
@@ -416,9 +429,6 @@ std::string command_of(const Finding& finding, const judge::GateResult& result) 
   if (!is_reproduced_by_render(finding)) {
     if (!is_open(finding) || !can_name_plan(result)) return {};
     make_gate_command(finding, result, command);
-  }
-  if (const auto set = result.environments.find(finding.device); set != result.environments.end()) {
-    command.environment = allowed_environment(set->second);
   }
   return text_of(command);
 }

@@ -67,6 +67,19 @@ TEST_F(OnlyCompile, IsJudgedByItsCode) {
   ASSERT_EQ(same.code, 0) << same.output;
   const Result passed = program.run("gate compiled.yaml --baselines b --store s.sqlite");
   EXPECT_EQ(passed.code, 0) << passed.output;
+
+  // The command of a finding prints the stored statistics next to the new ones.
+  const std::string code = std::string("code volume --device ") + absent_device +
+                           " --set technique=raycast --set data=generate:sparse_field:8 --set "
+                           "viewport=16 --json --brief --stored compiled --baselines b";
+  const core::Json equal = core::Json::parse(program.run(code).output);
+  EXPECT_EQ(equal.at("stored").at("raycast.comp").at("statistics"),
+            equal.at("code").at("raycast.comp").at("statistics"));
+  const core::Json injected =
+      core::Json::parse(program.run(code + " --inject flipped_axis").output);
+  EXPECT_EQ(injected.at("stored"), equal.at("stored"));
+  EXPECT_NE(injected.at("stored").at("raycast.comp").at("statistics"),
+            injected.at("code").at("raycast.comp").at("statistics"));
 }
 
 TEST_F(OnlyCompile, PrintsStatisticsAndDisassembly) {

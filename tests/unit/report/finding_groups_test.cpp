@@ -255,6 +255,18 @@ TEST(CommandNote, NamesTheVariablesThatTheCommandLeavesOut) {
       << "there is no command";
 }
 
+TEST(CommandOf, PrintsStoredStatisticsOfCompiledCode) {
+  const Finding larger =
+      finding(regression, "vulkan:x", "technique=raycast", changed("instructions"), Check::code);
+  judge::GateResult code{.plan = "volume/code", .run = "r", .findings = {}};
+  const std::string command =
+      "triptych code volume --device vulkan:x --set technique=raycast --brief";
+  EXPECT_EQ(command_of(larger, code), command);
+  code.plan = "mine";
+  code.baselines = "b";
+  EXPECT_EQ(command_of(larger, code), command + " --stored mine --baselines b");
+}
+
 TEST(CommandOf, RendersTheConfiguration) {
   const Finding wrong = finding(regression, "gl:x#2", "data=a b%2Cc,step=0.5");
   judge::GateResult quick{.plan = "volume/quick", .run = "r", .findings = {}};
