@@ -23,12 +23,12 @@ std::string why(const measure::Broken& broken) {
 }
 
 // `greeted` contains the devices that were opened, and `broken` the devices that cannot be used.
-// `compilers` contains the ids of compile-only devices, which compile code for GPUs that this
-// machine does not have. These devices are listed without being opened.
+// `compilers` contains compile-only devices, which compile code for GPUs that this machine does not
+// have. The driver was asked whether it supports their GPU families.
 struct Devices {
   std::vector<Greeting> greeted;
   std::vector<measure::Broken> broken;
-  std::vector<std::string> compilers;
+  measure::Listing compilers;
 };
 
 std::string usable(const Greeting& greeting) {
@@ -95,17 +95,19 @@ void print_text(const Devices& found) {
   for (const measure::Broken& each : found.broken) {
     print_out("{} cannot be used: {}\n", each.what, why(each));
   }
-  if (found.compilers.empty()) return;
+  if (found.compilers.devices.empty() && found.compilers.broken.empty()) return;
   print_out(
-      "compilers for GPUs that are not in this machine (not loaded; use --compilers to load "
-      "them):\n");
-  for (const std::string& each : found.compilers) print_out("  {}\n", each);
+      "compilers for GPUs that are not in this machine (--compilers prints more about them):\n");
+  for (const record::Device& each : found.compilers.devices) print_out("  {}\n", each.id);
+  for (const measure::Broken& each : found.compilers.broken) {
+    print_out("  {} cannot be used: {}\n", each.what, each.reason);
+  }
 }
 
 void print_json(const Devices& found) {
   core::Json json{{"devices", core::Json::array()},
                   {"broken", core::Json::array()},
-                  {"compilers", found.compilers}};
+                  {"compilers", core::Json::array()}};
   for (const Greeting& each : found.greeted) {
     core::Json entry = each.device;
     entry["key"] = each.device.key();
@@ -113,8 +115,11 @@ void print_json(const Devices& found) {
     if (each.refused) entry["refused"] = *each.refused;
     json["devices"].push_back(std::move(entry));
   }
-  for (const measure::Broken& each : found.broken) {
-    json["broken"].push_back({{"what", each.what}, {"reason", why(each)}});
+  for (const record::Device& each : found.compilers.devices) json["compilers"].push_back(each.id);
+  for (const auto* listed : {&found.broken, &found.compilers.broken}) {
+    for (const measure::Broken& each : *listed) {
+      json["broken"].push_back({{"what", each.what}, {"reason", why(each)}});
+    }
   }
   print(json);
 }
@@ -142,7 +147,10 @@ core::ExitCode devices(const DevicesArguments& arguments) {
   for (const record::Device& device : listing.devices) {
     found.greeted.push_back(measure::greet(device, suite));
   }
-  if (!arguments.compilers) found.compilers = measure::installed_compilers();
+  const std::vector<std::string> compilers = measure::installed_compilers();
+  if (!arguments.compilers && !compilers.empty()) {
+    found.compilers = measure::list_compilers(compilers);
+  }
   if (arguments.json) {
     print_json(found);
   } else {
@@ -160,7 +168,7 @@ void add_devices_command(Commands& commands) {
   command.add_option("--device", arguments.devices,
                      "List only devices that match this glob (repeatable; default: all)");
   command.add_flag("--compilers", arguments.compilers,
-                   "Also load and list the compilers for GPUs that are not in this machine");
+                   "Also describe the compilers for GPUs that are not in this machine");
   command.add_flag("--json", arguments.json, "Print machine-readable JSON");
   add_example(command, "triptych devices --json");
 }

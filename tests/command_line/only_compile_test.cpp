@@ -102,6 +102,19 @@ TEST_F(OnlyCompile, AnUnknownFamilyIsReportedInOneLine) {
   EXPECT_NE(result.output.find("vulkan:radv-nosuch: the installed driver"), std::string::npos)
       << result.output;
   EXPECT_NE(result.output.find("not support this GPU family"), std::string::npos) << result.output;
+  // It also names the families that can be used.
+  EXPECT_NE(result.output.find(absent_device), std::string::npos) << result.output;
+}
+
+// Every listed compiler accepts its GPU family.
+TEST_F(OnlyCompile, DevicesListsOnlyFamiliesThatTheDriverSupports) {
+  const core::Json listed =
+      core::Json::parse(program.run("devices --json --device 'null:*'").output);
+  std::set<std::string> compilers = listed.at("compilers");
+  EXPECT_TRUE(compilers.contains(absent_device)) << listed;
+  for (const std::string& id : compilers) {
+    EXPECT_EQ(program.run("code volume --brief --device " + id).code, 0) << id;
+  }
 }
 
 // The fault `flipped_axis` adds one arithmetic operation to each sample of a ray, and

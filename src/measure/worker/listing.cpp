@@ -117,6 +117,20 @@ void list_compiler(const std::string& id, Listing& listing) {
   }
 }
 
+// Returns the ids of the usual compile-only devices that can be used and have the same driver as
+// `id`. Returns no ids if `id` is not a compile-only device.
+std::vector<std::string> usable_with_same_driver(const std::string& id) {
+  const auto device = compile_only(id);
+  if (!device) return {};
+  const std::string driver = id.substr(0, id.size() - device->family.size());
+  std::vector<std::string> ids = installed_compilers();
+  std::erase_if(ids, [&](const std::string& each) { return !each.starts_with(driver); });
+  std::vector<std::string> usable;
+  if (ids.empty()) return usable;  // otherwise, an empty list would select all devices
+  for (const record::Device& each : list_compilers(ids).devices) usable.push_back(each.id);
+  return usable;
+}
+
 // Throws an error that states why no device in the listing matches `glob`.
 [[noreturn]] void throw_no_match(const Listing& listing, std::string_view glob) {
   if (listing.devices.empty() && listing.broken.empty()) {
@@ -126,7 +140,8 @@ void list_compiler(const std::string& id, Listing& listing) {
         glob));
   }
   throw core::NotSupported(
-      fmt::format("no device matches {}; available devices:{}", glob, available_devices(listing)));
+      fmt::format("no device matches {}; available devices:{}", glob,
+                  available_devices(listing, usable_with_same_driver(std::string(glob)))));
 }
 
 }  // namespace
@@ -197,9 +212,10 @@ std::vector<std::string> unmatched(const Listing& listing, const std::vector<std
   return result;
 }
 
-std::string available_devices(const Listing& listing) {
+std::string available_devices(const Listing& listing, const std::vector<std::string>& more) {
   std::string known;
   for (const record::Device& device : listing.devices) known += " " + device.id;
+  for (const std::string& id : more) known += " " + id;
   if (known.empty()) known = " none";
   for (const Broken& each : listing.broken) {
     known += fmt::format("; {}{}{}", each.what, each.reason.empty() ? " cannot be used" : ": ",

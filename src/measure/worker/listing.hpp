@@ -40,8 +40,10 @@ void append(Listing& all, Listing more);
 [[nodiscard]] std::vector<std::string> unmatched(const Listing& listing,
                                                  const std::vector<std::string>& globs);
 
-// Returns the ids of all devices, followed by the drivers that cannot be used, for messages.
-[[nodiscard]] std::string available_devices(const Listing& listing);
+// Returns the ids of all devices and of `more`, followed by the drivers that cannot be used, for
+// messages.
+[[nodiscard]] std::string available_devices(const Listing& listing,
+                                            const std::vector<std::string>& more = {});
 
 // Returns the ids of the devices that match any of the globs (all devices if there are no globs),
 // in the order of the listing. If a glob matches no device, throws a core::NotSupported that lists
