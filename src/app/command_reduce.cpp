@@ -24,6 +24,7 @@
 #include "report/exports/frame_folder.hpp"
 #include "report/words/comparison.hpp"
 #include "report/words/finding.hpp"
+#include "report/words/frame_title.hpp"
 
 namespace triptych::app {
 namespace {
@@ -143,7 +144,8 @@ std::vector<std::string> write_dump(const OneFrame& frame, const ReduceArguments
 }
 
 report::BugReport report_of(const OneFrame& frame, const reduction::Reduction& reduction) {
-  report::BugReport report{.message = report::words::text_of(reduction.failure),
+  report::BugReport report{.title = report::words::frame_title(reduction.failure, frame.device),
+                           .message = report::words::text_of(reduction.failure),
                            .device = {},
                            .system = {},
                            .command = {},
@@ -174,12 +176,12 @@ struct Search {
 core::ExitCode finish_report(const Search& search, report::BugReport report,
                              const std::string& found) {
   report.device = search.trial.device();
+  report.injected = search.arguments.frame.faults;
   report.system = search.store.runs().front().system;
   for (std::string& file : write_frame(search.frame, search.trial, search.truths, search.out)) {
     report.files.push_back(std::move(file));
   }
   core::write_text(search.out / "README.md", report::markdown(report));
-  print_device(report.device);
   print_lines(
       fmt::format("{}\n{} frames drawn; {}{}\n{}\n{}\n", report.message, report.frames, found,
                   report.complete ? "" : "; the search stopped at the limit set by --frames",
@@ -280,6 +282,7 @@ core::ExitCode finish_sequence_report(const Search& search,
   }
   core::write_text(list, keys + preceding.key(frame) + "\n");
   report.files = {"sequence.txt"};
+  report.title = report::words::frame_title(failure, search.frame.device);
   report.message = report::words::text_of(failure);
   report.plan = search.arguments.after;
   report.factors = frame;
@@ -327,10 +330,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   const OneFrame frame = choose_frame(registry, arguments.frame);
   std::optional<PrecedingConfigurations> preceding;
   if (!arguments.after.empty()) preceding.emplace(registry, frame, arguments.after);
-  const fs::path out(arguments.frame.out);
-  // A README.md without frame.json next to it was not written by `reduce`, so it is kept.
-  if (fs::exists(out / "frame.json")) fs::remove(out / "README.md");
-  report::remove_frame(out);
+  const fs::path out = report::prepare_reduced_folder(arguments.frame.out);
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "reduce.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);
@@ -347,6 +347,7 @@ core::ExitCode reduce(const ReduceArguments& arguments) {
   reduction::Trial trial(frame.suite, frame.device, other, options, truths, store);
   const Search search{arguments, frame, store, truths, trial, out};
   const reduction::FirstFrames first = trial.draw_first(start);
+  print_device(trial.device());
   if (!first.first_failure) {
     if (preceding) return reduce_sequence(search, *preceding);
     print_out(

@@ -11,6 +11,7 @@
 namespace triptych::command_line {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -92,6 +93,35 @@ TEST(Reduce, FilesOfAnEarlierFrameAreRemoved) {
   EXPECT_TRUE(std::filesystem::exists(program.folder() / "r/truth.png"));
 }
 
+// If the user replaces `render` with `reduce` in a command, both commands name the same folder.
+TEST(Reduce, FilesOfRenderAreNotMixedWithThoseOfReduce) {
+  const Program program;
+  const std::string drawn = "volume --device null:scripted --out r --set viewport=8";
+  ASSERT_EQ(program.run("render --truth " + drawn).code, 1);
+  const std::string frame = program.read("r/frame.json");
+  const Result result = program.run("reduce " + drawn);
+  ASSERT_EQ(result.code, 1) << result.output;
+  EXPECT_EQ(program.read("r/frame.json"), frame);
+  EXPECT_FALSE(std::filesystem::exists(program.folder() / "r/README.md"));
+  EXPECT_THAT(program.read("r/reduced/README.md"), HasSubstr("| viewport | 1 |"));
+  EXPECT_THAT(result.output, HasSubstr("r/reduced/README.md"));
+}
+
+// The title must state how the frame fails, and that the driver is not at fault.
+TEST(Reduce, TheTitleStatesTheFailureAndTheInjectedFault) {
+  const Program program;
+  const auto title_with = [&](const std::string& options) {
+    const Result result = program.run(scene + "--set viewport=8 --limit 1 --frames 2 " + options);
+    EXPECT_EQ(result.code, 1) << result.output;
+    const std::string text = program.read("r/README.md");
+    return text.substr(0, text.find('\n'));
+  };
+  EXPECT_THAT(title_with("--inject crash"), HasSubstr("crashes on null:scripted"));
+  EXPECT_THAT(title_with("--inject hang"),
+              AllOf(HasSubstr("hangs on null:scripted"), HasSubstr("injected fault")));
+  EXPECT_THAT(title_with(""), Not(HasSubstr("injected fault")));
+}
+
 TEST(Reduce, AHangIsReducedWithinItsTimeLimit) {
   const Program program;
   const Result result =
@@ -108,9 +138,9 @@ TEST(Reduce, AFrameThatDoesNotFailPasses) {
   const Result result =
       program.run(std::string("reduce volume --out r --set step=0.5 ") + tiny, script);
   EXPECT_EQ(result.code, 0) << result.output;
-  EXPECT_EQ(result.output,
-            "the frame does not fail on null:scripted, so there is nothing to reduce; if it failed "
-            "in a plan, add --after PLAN\n");
+  EXPECT_THAT(result.output,
+              HasSubstr("the frame does not fail on null:scripted, so there is nothing to reduce; "
+                        "if it failed in a plan, add --after PLAN\n"));
 }
 
 // A frame that crashes only if two other configurations were drawn before it in the same process.

@@ -1,6 +1,7 @@
 #include "report/ci/bug_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -104,9 +105,14 @@ std::string text_of(const std::vector<BugReport::Change>& changes) {
 }
 
 std::string markdown(const BugReport& report) {
-  std::string text =
-      fmt::format("# A frame that {} draws incorrectly\n\n{}\n", markdown_escaped(report.device.id),
-                  markdown_escaped(report.message));
+  std::string text = fmt::format("# {}{}\n\n{}\n", markdown_escaped(report.title),
+                                 report.injected.empty() ? "" : " because of an injected fault",
+                                 markdown_escaped(report.message));
+  if (!report.injected.empty()) {
+    text += fmt::format(
+        "\nTriptych injected faults into this frame ({}), so the driver is not at fault.\n",
+        markdown_escaped(fmt::format("{}", fmt::join(report.injected, ", "))));
+  }
   text += device_facts(report);
   text += "\n## How to reproduce it\n" + fenced(report.command, "");
   text += "\nThe command exits with code 0 if nothing is wrong.\n\n## Files\n\n" +

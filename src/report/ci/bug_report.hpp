@@ -11,7 +11,9 @@
 namespace triptych::report {
 
 struct BugReport {
-  std::string message;  // how the frame fails, in one line
+  std::string title;                       // words::frame_title()
+  std::string message;                     // how the frame fails, in one line
+  std::vector<std::string> injected = {};  // faults that Triptych injected into the frame
   record::Device device;
   std::map<std::string, std::string> system;  // Run::system
   std::string command;                        // reproduces the failure

@@ -67,6 +67,20 @@ std::vector<std::string> replace_frame(const std::filesystem::path& folder,
   return written;
 }
 
+std::filesystem::path prepare_reduced_folder(const std::filesystem::path& named) {
+  const bool has_frame = std::filesystem::exists(named / "frame.json");
+  const bool of_render = has_frame && !std::filesystem::exists(named / "README.md");
+  if (of_render) return prepare_reduced_folder(named / "reduced");
+  // A README.md without frame.json next to it was not written by `reduce`, so it is kept.
+  if (has_frame) std::filesystem::remove(named / "README.md");
+  remove_frame(named);
+  std::filesystem::remove(named / "sequence.txt");
+  if (std::filesystem::exists(named / "dump" / "what-was-given.txt")) {
+    std::filesystem::remove_all(named / "dump");
+  }
+  return named;
+}
+
 void write_image_files(const std::filesystem::path& folder, const std::string& name,
                        const core::Image& image) {
   core::write_exr(image, folder / (name + ".exr"));

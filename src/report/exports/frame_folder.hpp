@@ -30,6 +30,11 @@ void remove_frame(const std::filesystem::path& folder);
                                                      const core::Image& image,
                                                      const nlohmann::json& frame);
 
+// Returns the folder for the results of `reduce`, without the files of an earlier `reduce`. It is
+// `named` or, if `named` contains a frame that `render` drew, the subfolder "reduced", so that the
+// files of both frames are not mixed. A frame of `reduce` has a README.md.
+[[nodiscard]] std::filesystem::path prepare_reduced_folder(const std::filesystem::path& named);
+
 // Writes `image` to NAME.exr and NAME.png. Throws IoError.
 void write_image_files(const std::filesystem::path& folder, const std::string& name,
                        const core::Image& image);
