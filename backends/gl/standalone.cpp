@@ -75,6 +75,7 @@ void dump_standalone(const measure::VolumeWork& work, const std::string& source,
            {"GROUPS_X", fmt::to_string(groups_x)},
            {"GROUPS_Y", fmt::to_string(groups_y)},
            {"DATA", data},
+           {"JUDGE", std::string(measure::c_judge)},
            {"IS_PACKED", packed ? "1" : "0"},
            {"VOLUME_FORMAT", !packed     ? format[0]
                              : two_words ? "GL_RG32UI"

@@ -16,6 +16,7 @@
 #include "core/output_files.hpp"
 #include "core/temporary_folder.hpp"
 #include "measure/contract/dump.hpp"
+#include "measure/contract/standalone.hpp"
 #include "measure/request/error_answer.hpp"
 #include "measure/request/fastest.hpp"
 #include "measure/run/in_process.hpp"
@@ -51,8 +52,7 @@ core::ExitCode compare_with_reference(const core::Image& image, const judge::Tru
   if (comparison.has_difference) {
     print_out(
         "{}: black means no error, white an error equal to the pixel's bound, azure to cyan a "
-        "larger "
-        "error (logarithmic scale)\n",
+        "larger error (logarithmic scale)\n",
         (out / "difference.png").string());
   }
   print_lines(report::words::text_of(comparison.what) + "\n");
@@ -168,6 +168,7 @@ void prepare_process(const RenderArguments& arguments) {
   if (arguments.dump.empty()) return;
   core::require_writable(arguments.dump);
   fs::remove(fs::path(arguments.dump) / "what-was-given.txt");
+  fs::remove(fs::path(arguments.dump) / "frame.c");
   ::setenv("TRIPTYCH_DUMP", fs::absolute(arguments.dump).c_str(), 1);
 }
 
@@ -225,6 +226,10 @@ core::ExitCode render_in_process(const RenderArguments& arguments) {
   core::ExitCode code =
       write_results(arguments, suite, drawn.record, drawn.device, drawn.image,
                     [&](const record::Record& record) { return truths.of(record); });
+  if (!arguments.dump.empty() && fs::exists(fs::path(arguments.dump) / "frame.c")) {
+    const judge::TruthPair& pair = truths.of(drawn.record);
+    measure::append_expected(arguments.dump, pair.truth, pair.bound);
+  }
   if (drawn.not_drawn > 0) {
     print_out("{} of {} pixels were not drawn; they still have the values from before the frame\n",
               drawn.not_drawn, drawn.image.pixel_count());

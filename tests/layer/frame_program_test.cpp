@@ -30,7 +30,8 @@ class FramePrograms : public testing::Test {
   }
 
   // Renders a frame, compiles the C program that `--dump` writes, and checks that this program
-  // prints the same colour of the middle pixel as the rendered image has.
+  // prints the same colour of the middle pixel as the rendered image has. The program must detect
+  // an injected fault.
   void expect_same_pixel(const std::string& device, const std::string& libraries,
                          const std::string& choice, const std::string& more) const {
     SCOPED_TRACE(device + " " + more);
@@ -40,9 +41,11 @@ class FramePrograms : public testing::Test {
     const test::Result compiled =
         in_folder(fmt::format("cc dump/frame.c {} -o frame-program", libraries));
     ASSERT_EQ(compiled.code, 0) << compiled.output;
-    EXPECT_LT(lines(), 400);
+    EXPECT_LT(lines(), 420);
     const test::Result printed = in_folder("./frame-program 7 8 " + choice);
-    ASSERT_EQ(printed.code, 0) << printed.output;
+    const bool injected = more.find("--inject") != std::string::npos;
+    ASSERT_EQ(printed.code, injected ? 1 : 0) << printed.output;
+    EXPECT_THAT(printed.output, HasSubstr("expected: "));
     std::smatch found;
     ASSERT_TRUE(std::regex_search(printed.output, found,
                                   std::regex("pixel \\(7, 8\\): (\\S+) (\\S+) (\\S+) (\\S+)")))

@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/file.hpp"
+#include "core/output_files.hpp"
+
 namespace triptych::measure {
 namespace {
 
@@ -57,6 +60,19 @@ std::string c_text(std::string_view name, std::string_view text) {
     result += "\"\n";
   }
   return result + ";\n";
+}
+
+void append_expected(const std::filesystem::path& folder, const core::Image& truth,
+                     const core::Image& bound) {
+  constexpr std::size_t most_pixels = 65536;
+  const std::filesystem::path file = folder / "frame.c";
+  if (truth.pixel_count() > most_pixels || !std::filesystem::exists(file)) return;
+  // The declarations in c_judge are tentative definitions. These are the definitions.
+  const std::string text =
+      c_words("expected_words", std::as_bytes(std::span(truth.rgba))) +
+      c_words("bound_words", std::as_bytes(std::span(bound.rgba))) +
+      "const uint32_t *expected_image = expected_words, *expected_bound = bound_words;\n";
+  core::write_text(file, core::read_text(file) + text);
 }
 
 std::string fill_template(std::string_view text, const std::map<std::string, std::string>& values) {
