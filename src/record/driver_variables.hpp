@@ -1,7 +1,8 @@
 #pragma once
-// Environment variables that select the driver that a loader loads. Unlike the variables in
-// Device::environment, they do not change the code that a given driver generates, so they are not
-// part of a device's key. A run stores their values as facts about the system.
+// Environment variables that name the drivers to load, or the folders in which loaders search for
+// drivers. A run stores their values as facts about the system. Most of them are missing in
+// Device::environment, because they do not change the code that a given driver generates, so they
+// must not change the device's key.
 
 #include <array>
 #include <map>
@@ -14,10 +15,12 @@ struct DriverVariable {
   std::string_view name;
   std::string_view api;  // the only API that is affected; empty: all APIs
 };
-inline constexpr std::array<DriverVariable, 10> driver_variables{{
+inline constexpr std::array<DriverVariable, 12> driver_variables{{
+    {"GALLIUM_DRIVER", "gl"},
     {"LD_LIBRARY_PATH", ""},
     {"LD_PRELOAD", ""},
     {"LIBGL_DRIVERS_PATH", "gl"},
+    {"MESA_LOADER_DRIVER_OVERRIDE", "gl"},
     {"OCL_ICD_FILENAMES", "opencl"},
     {"OCL_ICD_VENDORS", "opencl"},
     {"VK_ADD_DRIVER_FILES", "vulkan"},

@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/private_folder.hpp"
+#include "record/driver_variables.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -32,21 +33,6 @@ constexpr std::array<EnvironmentDefault, 2> defaults{{
     // for an image of 256x256 pixels.
     {"POCL_PTHREAD_MIN_WGS", "1", "opencl:"},
 }};
-
-// Environment variables that name the drivers to load, or the folders in which loaders search for
-// drivers.
-constexpr std::array<const char*, 12> driver_variables{"GALLIUM_DRIVER",
-                                                       "LD_LIBRARY_PATH",
-                                                       "LD_PRELOAD",
-                                                       "LIBGL_DRIVERS_PATH",
-                                                       "MESA_LOADER_DRIVER_OVERRIDE",
-                                                       "OCL_ICD_FILENAMES",
-                                                       "OCL_ICD_VENDORS",
-                                                       "VK_ADD_DRIVER_FILES",
-                                                       "VK_DRIVER_FILES",
-                                                       "VK_ICD_FILENAMES",
-                                                       "__EGL_VENDOR_LIBRARY_DIRS",
-                                                       "__EGL_VENDOR_LIBRARY_FILENAMES"};
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -198,13 +184,14 @@ std::vector<std::string> parse_environment(std::string_view text, const std::str
 
 std::vector<std::string> differing_driver_variables(std::span<const std::string> a,
                                                     std::span<const std::string> b) {
-  const auto value = [](const char* name, std::span<const std::string> overrides) {
+  const auto value = [](const std::string& name, std::span<const std::string> overrides) {
     const auto found = std::ranges::find(overrides, std::string_view(name), variable_name);
-    return found == overrides.end() ? variable(name) : found->substr(found->find('=') + 1);
+    return found == overrides.end() ? variable(name.c_str()) : found->substr(found->find('=') + 1);
   };
   std::vector<std::string> names;
-  for (const char* name : driver_variables) {
-    if (value(name, a) != value(name, b)) names.emplace_back(name);
+  for (const record::DriverVariable& each : record::driver_variables) {
+    const std::string name(each.name);
+    if (value(name, a) != value(name, b)) names.push_back(name);
   }
   return names;
 }
