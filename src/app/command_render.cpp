@@ -219,7 +219,6 @@ core::ExitCode render_in_process(const RenderArguments& arguments) {
   const measure::FrameInProcess drawn =
       measure::draw_in_process(registry.backend(device.substr(0, device.find(':'))), device, suite,
                                plan, faults, (fs::absolute(out) / "capture").string(), pixel);
-  print_device(drawn.device);
   const core::TemporaryFolder folder;
   record::Store store(folder.path() / "render.sqlite", record::Store::Mode::append);
   measure::Truths truths(registry.find_suite(), store);
@@ -265,9 +264,12 @@ core::ExitCode render(const RenderArguments& arguments) {
   const auto [run, record] = arguments.error           ? draw_within_error(drawing, plan, truths)
                              : !plan.automatic.empty() ? draw_fastest(drawing, plan)
                                                        : draw_one(drawing, plan);
-  // A device that could not be opened is not described.
+  // print_drawn() prints the driver of a frame with an image. A device that could not be opened has
+  // no description.
   const auto devices = store.devices(run);
-  if (!devices.empty()) print_device(devices.front().device);
+  if (record.outcome != record::Outcome::measured && !devices.empty()) {
+    print_device(devices.front().device);
+  }
   record::require_measured(record);
   if (record.image.empty()) throw core::InputError(record.technique + " does not produce an image");
   const core::Image image = store.decoded_image(record.image);
