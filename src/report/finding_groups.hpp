@@ -77,13 +77,4 @@ bool merge_into(FindingGroup& group, const FindingGroup& other);
 // Returns whether the finding needs attention: it is a regression, or could not be judged.
 [[nodiscard]] bool is_open(const judge::Finding& finding);
 
-// Returns whether `triptych render` reproduces the finding, so that `triptych reduce` finds a
-// smaller frame that fails. This includes hangs, because both commands have a time limit.
-[[nodiscard]] bool is_reproduced_by_render(const judge::Finding& finding);
-
-// Returns a command that reproduces a finding of the result and that users can copy. It sets the
-// environment variables with which the device was measured. Returns "" if there is no such command.
-[[nodiscard]] std::string command_of(const judge::Finding& finding,
-                                     const judge::GateResult& result);
-
 }  // namespace triptych::report

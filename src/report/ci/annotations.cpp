@@ -8,6 +8,7 @@
 #include "core/json.hpp"
 #include "core/json_text.hpp"
 #include "core/quoting.hpp"
+#include "report/finding_command.hpp"
 #include "report/overview.hpp"
 #include "report/words/cause.hpp"
 

@@ -13,6 +13,7 @@
 #include "report/ci/junit.hpp"
 #include "report/ci/markdown.hpp"
 #include "report/exports/verdict_json.hpp"
+#include "report/finding_command.hpp"
 #include "report/finding_groups.hpp"
 #include "report/overview.hpp"
 #include "report/words/cause.hpp"

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "record/short_name.hpp"
+#include "report/finding_command.hpp"
 #include "report/finding_groups.hpp"
 #include "report/html.hpp"
 #include "report/words/command_note.hpp"

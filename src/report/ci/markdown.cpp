@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/quoting.hpp"
+#include "report/finding_command.hpp"
 #include "report/overview.hpp"
 #include "report/words/cause.hpp"
 #include "report/words/command_note.hpp"

@@ -13,6 +13,7 @@
 
 #include "core/hash.hpp"
 #include "core/quoting.hpp"
+#include "report/finding_command.hpp"
 #include "report/html.hpp"
 #include "report/overview.hpp"
 #include "report/page/page_frame.hpp"

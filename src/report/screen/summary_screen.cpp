@@ -8,6 +8,7 @@
 #include "core/quoting.hpp"
 #include "core/text.hpp"
 #include "record/short_name.hpp"
+#include "report/finding_command.hpp"
 #include "report/overview.hpp"
 #include "report/words/cause.hpp"
 #include "report/words/command_note.hpp"

@@ -8,6 +8,7 @@
 
 #include "core/quoting.hpp"
 #include "record/short_name.hpp"
+#include "report/finding_command.hpp"
 #include "report/words/finding.hpp"
 
 namespace triptych::report::words {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "report/command.hpp"
+#include "report/finding_command.hpp"
 #include "report/finding_groups.hpp"
 
 namespace triptych::report::words {

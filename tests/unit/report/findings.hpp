@@ -62,6 +62,17 @@ namespace triptych::report {
           .changes = {{.name = name, .before = 3, .now = 4}}};
 }
 
+// Like finding_of(), with the arguments that differ between tests of groups and commands first.
+[[nodiscard]] inline judge::Finding finding(judge::Verdict verdict, const std::string& device,
+                                            const std::string& configuration,
+                                            judge::Observation what = over_bound(3),
+                                            judge::Check check = judge::Check::image) {
+  return finding_of(check, verdict, device, configuration, std::move(what));
+}
+
+inline const judge::Observation costlier = changed("device_code");
+inline const judge::Observation off_the_line{.cause = judge::Cause::residual_moved};
+
 // Returns an observation whose message quotes `text`.
 [[nodiscard]] inline judge::Observation quoting(const std::string& text) {
   return {.cause = judge::Cause::no_reference, .detail = text};
