@@ -2,22 +2,17 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <malloc.h>
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
-#include <fstream>
-#include <new>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/image_io.hpp"
 #include "measure/contract/equivalents.hpp"
-#include "measure/contract/not_drawn.hpp"
 #include "measure/protocol/clock.hpp"
 #include "measure/protocol/frame_proof.hpp"
 #include "measure/protocol/injected_fault.hpp"
@@ -26,40 +21,14 @@
 #include "measure/system/compile_only.hpp"
 #include "measure/system/crash_trace.hpp"
 #include "measure/system/host_arithmetic.hpp"
+#include "measure/system/process_memory.hpp"
 #include "measure/system/stopwatch.hpp"
+#include "measure/worker/job_failure.hpp"
 #include "measure/worker/wire.hpp"
 #include "technique/catalogue.hpp"
 
 namespace triptych::measure {
 namespace {
-
-// Returns a size in bytes from /proc/self/status, such as that of "VmRSS:".
-std::optional<std::uint64_t> process_status_bytes(std::string_view name) {
-  std::ifstream lines("/proc/self/status");
-  for (std::string line; std::getline(lines, line);) {
-    if (line.starts_with(name)) return std::stoull(line.substr(name.size())) * 1024;
-  }
-  return std::nullopt;
-}
-
-// Returns the peak memory of this process since its start. ru_maxrss is used only if /proc is
-// unavailable, because exec() does not reset it: a worker would begin with the peak of its
-// supervisor.
-std::uint64_t peak_memory_bytes() {
-  if (const auto peak = process_status_bytes("VmHWM:")) return *peak;
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
-}
-
-// Returns the resident memory of this process without the unused memory of its heap, which depends
-// on chance. Returns 0 if /proc is unavailable.
-std::uint64_t resident_memory_bytes() {
-#ifdef __GLIBC__
-  ::malloc_trim(0);
-#endif
-  return process_status_bytes("VmRSS:").value_or(0);
-}
 
 technique::Work kind_named(std::string_view name) {
   for (const technique::Work kind : {technique::Work::compute, technique::Work::draw}) {
@@ -77,67 +46,6 @@ Protocol protocol_for(const Job& job, const Work& work, bool has_statistics) {
     protocol.camera_jumps = particles->camera_before.has_value();
   }
   return protocol;
-}
-
-// Thrown if the input is invalid. The configuration is skipped, because this is not the device's
-// fault.
-struct BadInput : core::NotSupported {
-  using NotSupported::NotSupported;
-};
-
-// Thrown if a data file is missing. The configuration is skipped, because this is not the device's
-// fault.
-class MissingData : public core::NotSupported {
- public:
-  MissingData(const std::string& reason, std::string data)
-      : NotSupported(reason), data_(std::move(data)) {}
-  [[nodiscard]] const std::string& data() const { return data_; }
-
- private:
-  std::string data_;
-};
-
-// Returns the reason for a failure due to exhausted host memory. It contains the memory limit of
-// the worker, if --memory or the user's resource limits set a limit.
-record::Reason out_of_memory(const std::string& data) {
-  record::Reason reason{.cause = record::Cause::out_of_memory, .subject = data};
-  rlimit limit{};
-  if (::getrlimit(RLIMIT_DATA, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
-    reason.numbers["limit_bytes"] = static_cast<double>(limit.rlim_cur);
-  }
-  return reason;
-}
-
-record::Reason api_reason(record::Cause cause, const core::ApiError& error) {
-  return {.cause = cause, .subject = error.call(), .code = error.code(), .detail = error.what()};
-}
-
-// Runs `act`, and converts each type of error to the outcome of the configuration. `data` is the
-// name of the data set that is reported if memory is exhausted.
-template <typename Action, typename OnFailure>
-void outcome_of(const Action& action, const std::string& data, const OnFailure& on_failure) {
-  using record::Cause;
-  using record::Outcome;
-  try {
-    action();
-  } catch (const BadInput& error) {
-    on_failure(Outcome::skipped, {.cause = Cause::bad_input, .detail = error.what()});
-  } catch (const MissingData& error) {
-    on_failure(Outcome::skipped,
-               {.cause = Cause::not_supported, .subject = error.data(), .detail = error.what()});
-  } catch (const core::NotSupported& error) {
-    on_failure(Outcome::skipped, {.cause = Cause::not_supported, .detail = error.what()});
-  } catch (const core::DeviceLost& error) {
-    on_failure(Outcome::lost, api_reason(Cause::device_lost, error));
-  } catch (const core::ApiError& error) {
-    on_failure(Outcome::failed, api_reason(Cause::api_error, error));
-  } catch (const NotDrawn& error) {
-    on_failure(Outcome::failed, {.cause = Cause::not_drawn, .detail = error.what()});
-  } catch (const std::bad_alloc&) {
-    on_failure(Outcome::failed, out_of_memory(data));
-  } catch (const std::exception& error) {
-    on_failure(Outcome::failed, {.cause = Cause::error, .detail = error.what()});
-  }
 }
 
 class Worker {
