@@ -174,24 +174,32 @@ class Screen {
     if (shown > 0) add("");
   }
 
-  // Adds as many causes as fit on the screen.
+  // Adds as many causes as fit on the screen. If a cause does not fit, only its first line is
+  // added.
   void causes(const Overview& all, std::span<const std::string> files) {
     // The number of lines that follow the causes.
     const std::size_t below = files.empty() ? 6 : 8;
+    const auto fits = [&](std::size_t lines) { return lines_ + lines + 2 + below <= max_lines; };
     std::size_t shown = 0;
+    bool complete = true;
     for (const Cause& cause : all.open) {
-      const std::vector<std::string> lines = lines_of(cause);
-      if (lines_ + lines.size() + 2 + below > max_lines) break;
+      std::vector<std::string> lines = lines_of(cause);
+      if (!complete || !fits(lines.size())) {
+        complete = false;
+        lines.resize(1);
+      }
+      if (!fits(lines.size())) break;
       for (const std::string& line : lines) add(line);
-      add("");
+      if (complete) add("");
       ++shown;
     }
-    if (shown < all.open.size()) {
-      const std::size_t more = all.open.size() - shown;
-      add(fmt::format("  {} more {}: {}", more, more == 1 ? "cause" : "causes",
-                      files.empty() ? "use --out FOLDER to write them to files"
-                                    : "in the HTML report and in the other files below"));
-    }
+    if (complete) return;
+    const std::size_t more = all.open.size() - shown;
+    const std::string omitted =
+        more == 0 ? "details" : fmt::format("{} more {}", more, more == 1 ? "cause" : "causes");
+    add(fmt::format("  {}: {}", omitted,
+                    files.empty() ? "use --out FOLDER to write them to files"
+                                  : "in the HTML report and in the other files below"));
   }
 
   [[nodiscard]] std::vector<std::string> lines_of(const Cause& cause) const {

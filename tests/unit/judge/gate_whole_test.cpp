@@ -122,7 +122,7 @@ TEST_F(GateTest, ADeviceWithoutAVerdictIsReported) {
 TEST_F(GateTest, ChecksWithoutAVerdictAreListed) {
   accept_first();
   add_run("same");
-  request_.checks = {Check::image, Check::statistics, Check::memory};
+  request_.checks = {Check::image, Check::counters, Check::statistics};
   EXPECT_TRUE(gate("same").undecided_checks().empty());
   driver_versions_["vulkan:lavapipe"] = "99";
   add_run("new");
