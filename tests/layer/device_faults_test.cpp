@@ -63,7 +63,7 @@ TEST_F(DeviceFaults, NoFindingWithoutAFault) {
   EXPECT_THAT(unwrapped(judged().output), Not(HasSubstr("the device's clock")));
 }
 
-// The layer leaks 24 MB per compute pipeline, and every configuration creates two pipelines.
+// The layer leaks 8 MiB per buffer, and every configuration creates several buffers.
 TEST_F(DeviceFaults, MemoryThatIsNotFreedIsAFinding) {
   for (const char* change : {"leak", ""}) {
     const std::string store = fmt::format("memory{}.sqlite", change);

@@ -86,27 +86,24 @@ const AtExit at_exit;
 // Without this variable, a compiler could remove an allocation whose address is never used.
 void* volatile last_leak = nullptr;
 
-// Allocates host memory for every pipeline, and never frees it.
-void leak() {
-  constexpr std::size_t bytes = std::size_t{24} << 20U;
+// Allocates host memory with every buffer, and never frees it.
+VKAPI_ATTR VkResult VKAPI_CALL leak_with_buffer(VkDevice device, const VkBufferCreateInfo* info,
+                                                const VkAllocationCallbacks* allocator,
+                                                VkBuffer* buffer) {
+  constexpr std::size_t bytes = std::size_t{8} << 20U;
   void* lost = std::malloc(bytes);
   if (lost != nullptr) std::memset(lost, 1, bytes);
   last_leak = lost;
+  return next<PFN_vkCreateBuffer>(device, "vkCreateBuffer")(device, info, allocator, buffer);
 }
 
-template <auto Spoil>
-VKAPI_ATTR VkResult VKAPI_CALL compute_pipelines(VkDevice device, VkPipelineCache cache,
-                                                 std::uint32_t count,
-                                                 const VkComputePipelineCreateInfo* infos,
-                                                 const VkAllocationCallbacks* allocator,
-                                                 VkPipeline* pipelines) {
-  Spoil();
+VKAPI_ATTR VkResult VKAPI_CALL
+compute_pipelines_after_rounding(VkDevice device, VkPipelineCache cache, std::uint32_t count,
+                                 const VkComputePipelineCreateInfo* infos,
+                                 const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
+  std::fesetround(FE_UPWARD);
   return next<PFN_vkCreateComputePipelines>(device, "vkCreateComputePipelines")(
       device, cache, count, infos, allocator, pipelines);
-}
-
-void round_upward() {
-  std::fesetround(FE_UPWARD);
 }
 
 constexpr const char* submits = "vkQueueSubmit";
@@ -128,8 +125,8 @@ std::span<const Hook> submission_hooks() {
       hook("crash_with_pipeline", "vkDestroyPipeline", &destroy_pipeline),
       hook("crash_with_device", submits, &submit),
       hook("hang_with_device", submits, &submit),
-      hook("leak", "vkCreateComputePipelines", &compute_pipelines<&leak>),
-      hook("rounding", "vkCreateComputePipelines", &compute_pipelines<&round_upward>)};
+      hook("leak", "vkCreateBuffer", &leak_with_buffer),
+      hook("rounding", "vkCreateComputePipelines", &compute_pipelines_after_rounding)};
   return hooks;
 }
 
