@@ -264,10 +264,11 @@ core::ExitCode render(const RenderArguments& arguments) {
   const auto [run, record] = arguments.error           ? draw_within_error(drawing, plan, truths)
                              : !plan.automatic.empty() ? draw_fastest(drawing, plan)
                                                        : draw_one(drawing, plan);
-  // print_drawn() prints the driver of a frame with an image. A device that could not be opened has
-  // no description.
+  // print_drawn() prints the driver of a frame with an image. A frame that was skipped has not
+  // reached the driver. A device that could not be opened has no description.
   const auto devices = store.devices(run);
-  if (record.outcome != record::Outcome::measured && !devices.empty()) {
+  const bool reached_the_driver = record.outcome != record::Outcome::skipped;
+  if (record.image.empty() && reached_the_driver && !devices.empty()) {
     print_device(devices.front().device);
   }
   record::require_measured(record);

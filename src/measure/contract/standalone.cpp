@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <span>
+#include <vector>
 
 #include "core/file.hpp"
 #include "core/output_files.hpp"
@@ -72,7 +74,12 @@ void append_expected(const std::filesystem::path& folder, const core::Image& tru
       c_words("expected_words", std::as_bytes(std::span(truth.rgba))) +
       c_words("bound_words", std::as_bytes(std::span(bound.rgba))) +
       "const uint32_t *expected_image = expected_words, *expected_bound = bound_words;\n";
-  core::write_text(file, core::read_text(file) + text);
+  // The program contains the shaders and the data, so it may be larger than a text that a person
+  // writes.
+  std::vector<std::byte> program = core::read_file(file);
+  const auto more = std::as_bytes(std::span(text));
+  program.insert(program.end(), more.begin(), more.end());
+  core::write_file(program, file);
 }
 
 std::string fill_template(std::string_view text, const std::map<std::string, std::string>& values) {
