@@ -30,8 +30,8 @@
 //     "sleep": false,             true: a frame really takes its reported time
 //     "filter_weight_error": 0,   error of the hardware sampler
 //     "images": {"GLOB": "FILE.exr"},           files that replace the pattern
-//     "leaks": {"GLOB": BYTES},   memory that each prepare of matching work allocates and never
-//     frees "caches": {"GLOB": BYTES},  memory that only the first prepare of the same work keeps
+//     "leaks": {"GLOB": BYTES},   memory that each prepare of matching work keeps forever
+//     "caches": {"GLOB": BYTES},  memory that only the first prepare of the same work keeps forever
 //     "failures": [{"kind": "crash", "at": "frame", "frame": 2, "only": "GLOB", "once": "FILE",
 //                   "after": ["GLOB"]}]
 //   }

@@ -86,10 +86,10 @@ void require_layers(const vk::raii::Context& context, const std::vector<std::str
   }
   // Only Triptych's layer returns this code.
   if (result == vk::Result::eErrorValidationFailedEXT) {
-    throw core::InputError(
-        fmt::format("TRIPTYCH_LAYER={} is neither a fault nor a list of limits of {}; "
-                    "docs/validate.md lists the faults",
-                    variable("TRIPTYCH_LAYER"), fault_layer));
+    throw core::InputError(fmt::format(
+        "TRIPTYCH_LAYER={} is neither a fault that {} can simulate nor a list of Vulkan "
+        "limits that it can lower; docs/validate.md lists the faults",
+        variable("TRIPTYCH_LAYER"), fault_layer));
   }
   rethrow(error, core::CodePlace::current());
 }

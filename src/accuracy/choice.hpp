@@ -13,9 +13,10 @@ namespace triptych::accuracy {
 
 // How a search for a requested error E begins: with a step whose error is at most 0.7 E, and with
 // early termination at a transmittance of at most E/4, which changes any channel by at most E/4.
-// BudgetSearch (error_budget.hpp) then uses what the actual errors leave of E. Merging neighbouring
-// samples into one may cause an error of E/32; a larger share would save little time, because
-// merging saves time mainly in regions in which it causes almost no error.
+// The actual errors are usually smaller, so BudgetSearch (error_budget.hpp) then tries longer steps
+// and earlier termination. Merging neighbouring samples into one may cause an error of E/32. A
+// larger share would save little time, because merging saves time mainly in regions in which it
+// causes almost no error.
 inline constexpr double step_share = 0.7;
 inline constexpr double termination_share = 0.25;
 inline constexpr double merging_share = 1.0 / 32;

@@ -13,8 +13,8 @@ constexpr double steps_per_octave = 8;
 // is more than four times as long could meet the error only by chance.
 constexpr int most_lengthening = 16;
 constexpr int most_shortening_at_once = 32;
-// If a shorter step does not reduce the error by at least this factor, the step is not the reason
-// why the error is too large.
+// If more than this share of the error remains with a shorter step, the step is not the reason why
+// the error is too large.
 constexpr double least_reduction = 0.95;
 
 // Returns the number of grid steps by which the step size of a method of second order changes if

@@ -27,9 +27,10 @@ struct BudgetMeasurement {
 // up like the sides of a right triangle, and errors with opposite signs cancel. Therefore, this
 // search does not divide the requested error between the two sources. It measures the total error,
 // and looks for the settings with the fewest samples whose total error is at most the requested
-// error. The steps form a grid with a ratio of 2^(1/8), so the result may be 9 % shorter than
-// the longest possible step, or 19 % if the error is only of first order. The search depends only
-// on errors and on sample counts, not on times, so it always ends with the same result.
+// error. The steps form a grid with a ratio of 2^(1/8), and the search assumes that the error is of
+// second order. Therefore the longest possible step may be up to 9 % longer than the result, or up
+// to 19 % longer if the error is only of first order. The search depends only on errors and on
+// sample counts, not on times, so it always ends with the same result.
 class BudgetSearch {
  public:
   // The search begins with the step `first_step`. `thresholds` are in ascending order.

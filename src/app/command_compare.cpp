@@ -54,10 +54,10 @@ measure::SideOptions parse_side(std::string_view option, const std::string& text
   return side;
 }
 
-// Returns the records of the latest run that contains each device. They are followed by the records
-// of earlier runs that used the same device, driver version and program, because each run has its
-// own worker processes. A device may be missing from the latest run, because `compare --store`
-// writes a separate run for each side.
+// Returns, for each device of the plan, the records of the latest run that contains the device.
+// They are followed by the records of earlier runs with the same device, driver version and
+// program, which show how much the results vary between worker processes. A device may be missing
+// from the latest run, because `compare --store` writes a separate run for each side.
 std::vector<record::Record> records_of_all_devices(const record::Store& store,
                                                    const record::Run& latest) {
   const auto program = [](const record::Run& run) {

@@ -71,8 +71,8 @@ struct Drawn {
   record::Record record;
 };
 
-// Returns the protocol of the paper without its wall-clock loop, because frame.json contains only
-// the times of single frames.
+// Returns the default protocol, which is that of the paper (docs/paper.md), but without its
+// wall-clock loop, because frame.json contains only the times of single frames.
 measure::Protocol render_protocol(const RenderArguments& arguments) {
   measure::Protocol protocol;
   protocol.least_loop_ns = 0;
@@ -239,7 +239,7 @@ core::ExitCode render_in_process(const RenderArguments& arguments) {
   return code == core::ExitCode::pass ? shown : code;
 }
 
-// Throws InputError for --untimed if the fastest of several frames is wanted.
+// Throws InputError if --untimed is combined with an option that selects the fastest frame.
 void require_times_if_compared(const RenderArguments& arguments, const measure::Plan& plan) {
   if (!arguments.untimed || (!arguments.error && plan.automatic.empty())) return;
   throw core::InputError(
@@ -264,8 +264,8 @@ core::ExitCode render(const RenderArguments& arguments) {
   const auto [run, record] = arguments.error           ? draw_within_error(drawing, plan, truths)
                              : !plan.automatic.empty() ? draw_fastest(drawing, plan)
                                                        : draw_one(drawing, plan);
-  // print_drawn() prints the driver of a frame with an image. A frame that was skipped has not
-  // reached the driver. A device that could not be opened has no description.
+  // If there is an image, print_drawn() prints the driver later. A frame that was skipped has not
+  // reached the driver. If the device could not be opened, there is no description to print.
   const auto devices = store.devices(run);
   const bool reached_the_driver = record.outcome != record::Outcome::skipped;
   if (record.image.empty() && reached_the_driver && !devices.empty()) {

@@ -54,8 +54,8 @@ class ComparisonPrinter {
   report::Heartbeat heartbeat_;
 };
 
-// Returns a default plan of the suite that counts instructions. Returns "" if a side is not a
-// processor, because instructions are counted only on processors.
+// Returns a default plan of the suite that counts instructions. Returns "" if a side is not a CPU
+// device, because instructions are counted only on CPUs, or if the plan already counts them.
 std::string exact_plan(const measure::Plan& plan, const comparison::ComparisonResult& result,
                        const Registry& registry) {
   if (plan.counted() || result.a.cpu_features.empty() || result.b.cpu_features.empty()) return {};

@@ -7,7 +7,8 @@
 namespace triptych::app {
 namespace {
 
-// Estimating a step takes seconds, so it is shown only on a terminal, until the step is found.
+// Estimating a step takes seconds. A terminal shows a line during this time, which is removed when
+// the step has been found. A log does not contain this line.
 void print_search(const measure::ErrorProgress& progress) {
   const std::string text = report::words::text_of(progress);
   if (progress.phase == measure::ErrorProgress::Phase::step_search) {

@@ -140,7 +140,7 @@ void announce(const RunContext& context, const std::vector<std::pair<std::string
   const std::size_t devices = context.devices.size();
   print_err("measuring {} configurations of {} plans on {} device{}{}\n", measurements,
             planned.size(), devices, devices == 1 ? "" : "s",
-            context.request.resume ? ", without those that are already in the store" : "");
+            context.request.resume ? "; the other results are already in the store" : "");
 }
 
 // Prints why configurations of the run were skipped or failed.

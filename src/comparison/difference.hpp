@@ -92,9 +92,9 @@ struct Difference {
   std::optional<judge::CodeTotal> total = {};
   std::string injected = {};  // faults injected into a side with --inject
 
-  // Returns a number by which the differences of one group are sorted: |ln ratio|, |ln| of the
-  // largest change of a code statistic (for the worse, if this is a regression), or the largest
-  // error of an image. Returns 0 if the difference has no size.
+  // Returns a number by which the differences of one group are sorted: |ln ratio|, the largest
+  // |ln ratio| of a code statistic, or the largest error of an image. For a regression, only the
+  // statistics that became worse are considered. Returns 0 if the difference has no size.
   [[nodiscard]] double size() const;
   [[nodiscard]] std::string about() const;  // the measurement, such as "image" or "counter samples"
 };

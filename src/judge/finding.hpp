@@ -158,7 +158,7 @@ enum class Advice : std::uint8_t {
   none,
   accept,                // accept the values with `command`
   accept_or_compare,     // accept the values with `command`, or compare two versions with --base
-  accept_own,            // accept a user's plan with `command`, in a folder of the user
+  accept_own,            // accept a user's plan with `command`, in the user's own baselines folder
   run_again,             // run the plan again
   resume,                // finish the run with `command`
   restore_data,          // restore the data and run again, or accept with `command`

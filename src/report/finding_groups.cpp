@@ -303,8 +303,8 @@ FaultAttribution FindingGroup::attribution() const {
   if (auto passed = with_same_api(first->accepted_on); !passed.empty()) {
     return {FaultAttribution::Kind::driver_since_accepted, std::move(passed)};
   }
-  // Findings about an accepted driver version have no list of accepted devices, so the device in
-  // this list has another driver version.
+  // `accepted_on` is empty if the driver version was accepted. If it contains the finding's own
+  // device, the configuration was accepted there with another driver version.
   if (std::ranges::find(first->accepted_on, first->device) != first->accepted_on.end()) {
     return {FaultAttribution::Kind::driver_version, {}};
   }

@@ -120,8 +120,7 @@ std::string unknown_format(std::string_view ending, const ReadBySuite& read, con
   if (other != nullptr) {
     return fmt::format(
         "this looks like a {} file (format {}), which the suite {} does not read; use the suite "
-        "{}, as in "
-        "`triptych render {} --set data=FILE`",
+        "{}, as in `triptych render {} --set data=FILE`",
         other_read.data, other->name, read.suite, other_read.suite, other_read.suite);
   }
   const std::string what =

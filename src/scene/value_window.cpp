@@ -113,7 +113,7 @@ double normalised(double value, const Range& range, Mapping mapping) {
   return std::clamp(x, 0.0, 1.0);
 }
 
-// The position of a volume's voxels relative to its window. For a logarithmic mapping, values that
+// The numbers of voxels below, inside and above the window. For a logarithmic mapping, values that
 // are not positive count as below the window. `other` counts values that are not finite.
 struct WindowShares {
   std::uint64_t below = 0;
@@ -181,7 +181,7 @@ void set_window_of(Volume& volume, const std::optional<Window>& window, Mapping 
   const double lowest =
       mapping == Mapping::logarithmic ? 0 : normalised(available.lo, range, mapping);
   const double highest = normalised(available.hi, range, mapping);
-  // The range of doubles may overflow, so that the result is not a number.
+  // If the values have the type double, hi − lo may overflow. The results are then not numbers.
   if (shares.other == 0 && lowest <= highest) volume.used = {lowest, highest};
   if (std::string note = window_note(shares, range, mapping, counted); !note.empty()) {
     volume.facts.notes.push_back(std::move(note));

@@ -53,8 +53,7 @@ std::string sentence_of(const accuracy::ImageComparison& comparison, const core:
   return fmt::format(
       "{} of {} pixels differ from {} by more than the combined bound of both devices; largest "
       "difference {:.3g} at pixel ({}, {}), RMS difference {:.3g}; the pixel with the largest "
-      "ratio of "
-      "difference to bound is ({}, {}): difference {:.3g}, bound {:.3g}",
+      "ratio of difference to bound is ({}, {}): difference {:.3g}, bound {:.3g}",
       comparison.over_bound, comparison.pixels, other, comparison.largest.error,
       comparison.largest.x, comparison.largest.y, comparison.rmse, comparison.worst.x,
       comparison.worst.y, comparison.worst.error, comparison.worst.bound);

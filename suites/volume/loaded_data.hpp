@@ -51,9 +51,9 @@ class DataLoader {
   // Returns lines that describe the volume, with the notes that `load` would report.
   [[nodiscard]] std::vector<std::string> describe(
       const measure::Configuration& configuration) const;
-  // Loads and encodes the volume. Calls `on_note` with each note: what the file reader guessed or
-  // left out, and whether the window misses nearly all values. The result is valid until the next
-  // call.
+  // Loads and encodes the volume. Calls `on_note` with each note, such as that the file reader
+  // guessed a value, or that the window misses nearly all values. The result is valid until the
+  // next call.
   const LoadedData& load(const measure::Configuration& configuration, const ChooseFormat& choose,
                          const OnNote& on_note);
 

@@ -37,7 +37,8 @@ std::vector<std::string> GateResult::undecided_devices() const {
 }
 
 std::map<Check, std::set<std::string>> GateResult::undecided_checks() const {
-  std::map<Check, std::map<std::string, bool>> decided;  // by device; only skipped: not contained
+  // By device. Devices on which the check was only skipped are missing.
+  std::map<Check, std::map<std::string, bool>> decided;
   std::set<Check> with_decision;
   for (const Finding& finding : findings) {
     if (is_decision(finding.verdict)) with_decision.insert(finding.check);

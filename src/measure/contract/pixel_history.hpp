@@ -29,8 +29,7 @@ inline constexpr const char* pixel_history_unsupported =
 // needs.
 inline constexpr const char* pixel_history_of_device_unsupported =
     "this device cannot record the history of a pixel with this technique; use another technique "
-    "or "
-    "a device of another API";
+    "or a device of another API";
 inline constexpr const char* pixel_history_of_suite_unsupported =
     "the reference renderer of this suite cannot compute the history of a pixel";
 

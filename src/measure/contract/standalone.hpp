@@ -21,8 +21,8 @@ namespace triptych::measure {
 [[nodiscard]] std::string c_text(std::string_view name, std::string_view text);
 
 // The C function `judge`, which prints a pixel, compares it with the expected value, and returns
-// the exit code of the program. The expected values are unknown until append_expected() adds them.
-// The program is complete without them, because the frame may crash before they can be added. The
+// the exit code of the program. The expected values are missing until append_expected() adds them.
+// The program also compiles without them, because the frame may crash before they can be added. The
 // template must define `width` before this function.
 inline constexpr std::string_view c_judge =
     R"c(/* The image of the reference renderer and the bound of each pixel and channel, as floats. The end of
@@ -49,7 +49,7 @@ static int judge(int x, int y, const float *pixel) {
 )c";
 
 // Appends the expected values to frame.c in the dump folder. Does nothing if there is no frame.c,
-// or if the image is so large that a compiler would need long for the program.
+// or if the image is so large that compiling the program would take long.
 void append_expected(const std::filesystem::path& folder, const core::Image& truth,
                      const core::Image& bound);
 

@@ -64,8 +64,9 @@ class StartSearch {
       progress_.quadrature = quadrature;
       progress_.viewport = small;
       const StepError first = first_step(candidate, limits);
-      // The error of a small image is only an estimate. However, if it exceeds the share by more
-      // than this factor, the error of the complete image also exceeds the requested error.
+      // The error of a small image is only an estimate of the error of the complete image. However,
+      // if it exceeds the step's share of the requested error by more than this factor, it is
+      // assumed that the complete image cannot meet the requested error.
       constexpr double rejection_factor = 4;
       const bool fixed = !goal_.chooses("step");
       const bool meets_share = fixed || first.error <= rejection_factor * step_error_;
@@ -109,8 +110,8 @@ class StartSearch {
     return record;
   }
 
-  // Returns the quadratures to be tried: the fixed one, or all except "own", which stands for one
-  // of the others.
+  // Returns the quadratures to be tried: the fixed one, or all except "own", which is an alias of
+  // one of the others.
   [[nodiscard]] std::vector<std::string> quadratures(const Configuration& scene) const {
     if (!goal_.chooses("quadrature")) return {scene.at("quadrature")};
     std::vector<std::string> levels = error_factor(suite_, "quadrature").levels;
@@ -222,7 +223,8 @@ ErrorRequest request_error(const Plan& plan, const ErrorSearch& search) {
         "--error requires a plan that measures frame times, but plan {} counts instructions",
         plan.name));
   }
-  // Reports the most important missing factor of a suite that is not for volumes.
+  // Throws an error for a suite that is not for volumes. Of the factors that the suite lacks, the
+  // message should name the most important one.
   static_cast<void>(error_factor(search.suite, "step"));
   ErrorRequest result{.plan = plan, .unreachable = {}};
   result.plan.checks.insert(record::Check::timing);

@@ -22,12 +22,12 @@ namespace triptych::measure {
 // Decision: the worker draws repeats(). After each of them, it returns its unused heap memory to
 // the operating system, so that its resident memory contains only memory in use. The first and the
 // last repeat are the same configuration, so both numbers belong to the same state, and their
-// difference is what the `window` repeats in between did not free. Without a leak, the difference
+// difference is the memory that `window` repeats did not free. Without a leak, the difference
 // is below 0.2 MiB for each configuration (lavapipe, whose peak grew by up to 16 MiB each time when
 // one configuration was drawn repeatedly). With a leak, it is about as large as the growth that
-// caused the suspicion, more than 16 MiB, of which work that a driver does only once may explain a
-// part. The limit of 4 MiB has a distance of a factor of 4 from the smallest suspicious leak, and
-// of 20 from the noise.
+// caused the suspicion, which is more than 16 MiB. It may be smaller, because a part of that growth
+// may come from work that a driver does only once. The limit of 4 MiB is a quarter of the smallest
+// suspicious growth, and 20 times the growth without a leak.
 class MemoryGrowth {
  public:
   static constexpr std::size_t window = 8;

@@ -282,7 +282,7 @@ std::array<RunResult, 2> run_sides(const SidesRun& sides, record::Store& store,
 
 std::string describe(const RunResult& result, const std::string& plan, const std::string& store) {
   std::string text = fmt::format(
-      "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % of it outside "
+      "{}: run {} in {}: {} measured, {} skipped, {} failed; {:.1f} s, {:.1f} % overhead outside "
       "drivers and devices\n",
       plan, result.run, store, result.measured, result.skipped, result.failed, result.wall_ns / 1e9,
       result.devices_ns > 0 ? 100 * result.overhead_ns / result.devices_ns : 0.0);

@@ -73,8 +73,8 @@ class EnergyMeters::Span {
   }
 
  private:
-  // Begins the span at an update of the meter. A span begins again if the meter was reset, because
-  // the energy since the previous update is then unknown.
+  // Begins the span at the first update of the meter. Also restarts it after the meter was reset,
+  // because the energy since the previous update is then unknown.
   void start(int frames, double ns) {
     first_frame_ = frames;
     first_ns_ = ns;

@@ -39,8 +39,9 @@ namespace triptych::report {
 [[nodiscard]] core::Json to_json(const comparison::StoreDiff& diff);
 
 // Returns [{"device", "first_worse", "points": [{"store", "name", "started_at", "driver_version",
-// "triptych", "injected", "cost", "time", "changes", "differences", "worse"}]}]. "changes" contains
-// the differences as one human-readable string. Unknown values are left out.
+// "triptych", "injected", "cost", "time", "time_change": {"ratio", "half_width", "noise", "text"},
+// "changed_clocks" (a sentence), "changes", "differences", "worse"}]}]. "changes" contains the
+// differences as one human-readable string. Unknown values are left out.
 [[nodiscard]] core::Json to_json(const std::vector<comparison::DeviceHistory>& history);
 
 [[nodiscard]] core::Json to_json(const comparison::SideBySide& table);

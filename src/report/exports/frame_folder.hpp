@@ -17,9 +17,9 @@ namespace triptych::report {
 [[nodiscard]] nlohmann::json frame_json(nlohmann::json scene, const record::Record& record,
                                         const record::Device& device);
 
-// Removes all files that the functions below write. A command that does not draw an image in every
-// case calls this first, because otherwise users could mistake the images of an earlier frame for
-// images of the current frame.
+// Removes all files that the functions below write. A command calls this first if it may end
+// without an image, because users could otherwise mistake the images of an earlier frame for images
+// of the current frame.
 void remove_frame(const std::filesystem::path& folder);
 
 // Writes image.png, image.exr and frame.json, and removes the files of an earlier frame's
@@ -30,9 +30,10 @@ void remove_frame(const std::filesystem::path& folder);
                                                      const core::Image& image,
                                                      const nlohmann::json& frame);
 
-// Returns the folder for the results of `reduce`, without the files of an earlier `reduce`. It is
-// `named` or, if `named` contains a frame that `render` drew, the subfolder "reduced", so that the
-// files of both frames are not mixed. A frame of `reduce` has a README.md.
+// Returns the folder for the results of `reduce`, after removing the files of an earlier `reduce`
+// from it. It is `named` or, if `named` contains a frame that `render` drew, the subfolder
+// "reduced", so that the files of both frames are not mixed. If there is a README.md next to the
+// frame, `reduce` drew it.
 [[nodiscard]] std::filesystem::path prepare_reduced_folder(const std::filesystem::path& named);
 
 // Writes `image` to NAME.exr and NAME.png. Throws IoError.

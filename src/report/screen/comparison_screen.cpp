@@ -114,8 +114,8 @@ std::string line_of(const ComparedConfiguration& compared, const ComparisonComma
 std::string times_of(const ComparisonResult& result, const ComparisonCommand& command) {
   constexpr int most_undecided = 3;
   std::string text =
-      "time of b divided by time of a, with the confidence interval in brackets; before it, the "
-      "median times of a and b with their quartiles, from the same measurements:\n";
+      "each line contains the median times of a and b with their quartiles, and the time of b "
+      "divided by the time of a with its confidence interval, from the same measurements:\n";
   int undecided = 0;
   for (const ComparedConfiguration& compared : result.configurations) {
     const bool folded = is_undecided(compared) && ++undecided > most_undecided && !command.verbose;

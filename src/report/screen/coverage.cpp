@@ -112,7 +112,7 @@ std::string coverage_summary(const std::map<std::string, Coverage>& coverage) {
     for (const auto& [factor, of_factor] : covered.levels) levels += of_factor.size();
     text += fmt::format(
         "coverage of {}: {} configurations were drawn, with {} techniques and {} levels of {} "
-        "listed factors\n",
+        "factors that select code, API features or formats\n",
         device, covered.configurations,
         technique == covered.levels.end() ? 0 : technique->second.size(), levels,
         covered.levels.size());

@@ -76,8 +76,8 @@ std::string error_table(Answers answers, const accuracy::RequestedError& request
                       best.time->median / 1e6, best.clock, words::text_of_errors(best, request));
   if (!similar.empty()) {
     text +=
-        fmt::format("not clearly slower, because the fastest frame is not slower than this: {}\n",
-                    fmt::join(similar, ", "));
+        fmt::format("not clearly slower, because the fastest frame took at most {:.3f} ms: {}\n",
+                    best.time->median / 1e6, fmt::join(similar, ", "));
   }
   return text + missed;
 }

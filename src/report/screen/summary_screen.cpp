@@ -22,8 +22,8 @@ using judge::Verdict;
 constexpr std::size_t max_lines = 40;
 constexpr std::size_t min_width = 40;
 constexpr std::size_t max_command_width = 600;
-constexpr std::size_t max_message_lines = 3;  // lines
-constexpr std::size_t max_meaning_lines = 2;  // lines
+constexpr std::size_t max_message_lines = 3;
+constexpr std::size_t max_meaning_lines = 2;
 constexpr std::size_t max_waived = 3;
 constexpr std::size_t max_circumstances = 5;
 constexpr std::size_t max_circumstance_lines = 2;      // for each note

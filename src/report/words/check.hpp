@@ -37,7 +37,7 @@ struct NoticeWords {
 };
 
 inline constexpr std::array notice_words{
-    NoticeWords{"driver", "Driver", "faults that belong to no single image"},
+    NoticeWords{"driver", "Driver", "faults that are not limited to one image"},
     NoticeWords{"baselines", "Baselines", "none"},
 };
 // The sentence of a check that needs baselines, if there are none.

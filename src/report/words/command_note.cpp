@@ -20,12 +20,12 @@ std::string command_note(const judge::Finding& finding, const judge::GateResult&
   if (names.empty()) return {};
   std::string text = fmt::format(
       "{} {} set during the measurement, but the command does not set {}, because {} could load "
-      "other "
-      "code",
+      "other code",
       fmt::join(names, ", "), names.size() == 1 ? "was" : "were", names.size() == 1 ? "it" : "them",
       names.size() == 1 ? "it" : "they");
   if (const auto device = result.tested.find(finding.device); device != result.tested.end()) {
-    text += fmt::format("; the command must use driver version {}", device->second.driver_version);
+    text += fmt::format("; if the command does not use driver version {}, set {} before it",
+                        device->second.driver_version, names.size() == 1 ? "it" : "them");
   }
   return text;
 }

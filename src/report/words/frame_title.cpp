@@ -17,7 +17,7 @@ std::string title_of_end(const judge::Observation& failure, const std::string& d
     case Outcome::hung:
       return "A frame that hangs on " + device;
     case Outcome::lost:
-      return fmt::format("A frame that makes {} a lost device", device);
+      return fmt::format("A frame that causes a device loss on {}", device);
     default:
       return failure.reason.cause == record::Cause::not_drawn
                  ? fmt::format("A frame that {} does not draw", device)
@@ -32,14 +32,14 @@ std::string frame_title(const judge::Observation& failure, const std::string& de
     case Cause::ended:
       return title_of_end(failure, device);
     case Cause::values_changed:
-      return fmt::format("A frame for which {} has wrong counters", device);
+      return fmt::format("A frame for which {} returns wrong counters", device);
     case Cause::not_finite:
       return failure.number("pixels_not_drawn") == failure.number("pixels_not_finite")
                  ? fmt::format("A frame in which {} leaves pixels undrawn", device)
                  : fmt::format("A frame in which {} draws non-finite values", device);
     case Cause::size_differs:
     case Cause::empty_image:
-      return fmt::format("A frame that {} draws in a wrong size", device);
+      return fmt::format("A frame that {} draws with the wrong size", device);
     default:
       return fmt::format("A frame that {} draws incorrectly", device);
   }

@@ -119,8 +119,7 @@ std::string no_baselines(const Observation& what) {
   const std::string& checked = what.fact("checked");
   text += checked.empty() ? std::string(", so nothing was checked")
                           : fmt::format(", so only these checks were made: {}", checked);
-  return text +
-         fmt::format("; there is nothing to compare with for: {}", fmt::join(what.names, ", "));
+  return text + fmt::format("; these checks need baselines: {}", fmt::join(what.names, ", "));
 }
 
 std::string not_counted(const Observation& what) {

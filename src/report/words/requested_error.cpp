@@ -16,9 +16,9 @@ std::string text_of(const measure::ErrorProgress& progress) {
   switch (progress.phase) {
     case Phase::begin:
       return fmt::format(
-          "searching settings for {} scene{}: for each, compute the limit image (viewport={}) and "
-          "small images on the host; then draw trial images with different steps on the devices; "
-          "then time the best settings",
+          "searching for the fastest settings in {} scene{}: for each, compute the limit image "
+          "(viewport={}) and small images on the host; then draw trial images with different steps "
+          "on the devices; then time the best settings",
           progress.scenes, progress.scenes == 1 ? "" : "s", progress.viewport);
     case Phase::step_search:
       return fmt::format("scene {} of {}: estimating the step for quadrature={} with images of {}",
@@ -56,8 +56,9 @@ std::string text_of(const measure::Unreachable& unreachable,
   }
   return fmt::format(
       "{}: the error caused by the step size is too large with every step: the smallest error is "
-      "{:.3g}, at viewport={}, and the search begins only if it is not much larger than {:.3g}, a "
-      "share of the requested error {}; request a larger error",
+      "{:.3g} (estimated at viewport={}), but the step may cause only about {:.3g} of the "
+      "requested "
+      "error {}; request a larger error",
       unreachable.scene, unreachable.error, unreachable.viewport, unreachable.allowed,
       text_of(request));
 }
