@@ -22,7 +22,7 @@ using judge::Verdict;
 constexpr std::size_t max_lines = 40;
 constexpr std::size_t min_width = 40;
 constexpr std::size_t max_command_width = 600;
-constexpr std::size_t max_message_lines = 3;
+constexpr std::size_t max_message_lines = 4;
 constexpr std::size_t max_meaning_lines = 2;
 constexpr std::size_t max_waived = 3;
 constexpr std::size_t max_circumstances = 5;
