@@ -118,7 +118,7 @@ TEST_F(DriverFaults, AreDistinguishedFromFaultsOfTriptych) {
   }
   ASSERT_EQ(accepted.code, 0) << accepted.output;
   EXPECT_EQ(layered.draw("", particles, devices + " --inject small_sprite").code, 0);
-  const std::string verdicts = unwrapped(layered.judge(particles).output);
+  const std::string verdicts = layered.log_of(particles);
   EXPECT_THAT(verdicts, HasSubstr("the driver is not at fault, because opencl:pocl is"));
   EXPECT_THAT(verdicts, HasSubstr("the driver is not at fault, because vulkan:lavapipe is"));
   EXPECT_THAT(verdicts, testing::Not(HasSubstr("the driver is at fault")));

@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "backends/vulkan/backend.hpp"
+#include "core/file.hpp"
 #include "measure/contract/backend.hpp"
 #include "support/command.hpp"
 #include "support/temporary_folder.hpp"
@@ -45,10 +46,15 @@ class Layered {
                                    choice, plan));
   }
 
-  [[nodiscard]] test::Result judge(std::string_view plan) const {
+  [[nodiscard]] test::Result judge(std::string_view plan, const std::string& more = {}) const {
     return run("", fmt::format("gate {0} --store {1}.sqlite --baselines baselines --check "
-                               "image --check counters",
-                               file_of(plan), plan));
+                               "image --check counters{2}",
+                               file_of(plan), plan, more));
+  }
+  // Like judge(), but returns gate.log, which contains every finding.
+  [[nodiscard]] std::string log_of(std::string_view plan) const {
+    static_cast<void>(judge(plan, " --out verdict"));
+    return core::read_text(folder_.path() / "verdict" / "gate.log");
   }
 
   // Accepts the current images and counters as correct.

@@ -23,12 +23,12 @@
 namespace triptych::report {
 namespace {
 
-// Returns further lines about a group that needs attention: its configurations, if there are
-// several; the key of the first one, which for example `accept --only` needs; and the command that
-// reproduces it.
+// Returns further lines about a group that needs attention: whether the driver is at fault; what to
+// do; its configurations, if there are several; the key of the first one, which for example `accept
+// --only` needs; and the command that reproduces it.
 std::string details_of(const FindingGroup& group, const judge::GateResult& result) {
   if (!is_open(*group.first)) return {};
-  std::vector<std::string> lines;
+  std::vector<std::string> lines{words::attribution(group), words::advice(*group.first)};
   if (group.members.size() > 1) {
     for (const judge::Finding* each : group.members) {
       const std::string name = record::short_name(each->configuration);
