@@ -9,6 +9,7 @@
 #include "app/registry.hpp"
 #include "app/terminal.hpp"
 #include "measure/worker/listing.hpp"
+#include "report/screen/columns.hpp"
 #include "report/words/clocks.hpp"
 #include "report/words/outcome.hpp"
 
@@ -39,33 +40,15 @@ std::string usable(const Greeting& greeting) {
 // Prints one line for each device: its id, its driver version, whether its clocks are trusted, and
 // whether it can be used.
 void print_table(const Devices& found) {
-  struct Row {
-    std::string id;
-    std::string driver;
-    std::string clock;
-    std::string usable;
-  };
-  std::vector<Row> rows{{"device", "driver", "clock", "usable"}};
+  std::vector<std::vector<std::string>> rows{{"device", "driver", "clock", "usable"}};
   for (const Greeting& each : found.greeted) {
-    rows.push_back({each.device.id, each.device.driver_version,
-                    report::words::trust_of(each.clocks), usable(each)});
+    rows.push_back({core::printable(each.device.id), core::printable(each.device.driver_version),
+                    report::words::trust_of(each.clocks), core::printable(usable(each))});
   }
   for (const measure::Broken& each : found.broken) {
-    rows.push_back({each.what, "–", "–", "no: " + why(each)});
+    rows.push_back({core::printable(each.what), "–", "–", core::printable("no: " + why(each))});
   }
-  const auto width_of = [&](std::string Row::*column) {
-    std::size_t width = 0;
-    for (const Row& row : rows) width = std::max(width, (row.*column).size());
-    return width;
-  };
-  const std::size_t id = width_of(&Row::id);
-  const std::size_t driver = width_of(&Row::driver);
-  const std::size_t clock = width_of(&Row::clock);
-  for (const Row& row : rows) {
-    print_out("{:<{}}  {:<{}}  {:<{}}  {}\n", row.id, id, row.driver, driver, row.clock, clock,
-              row.usable);
-  }
-  print_out("\n");
+  print_lines(report::aligned_columns(rows) + "\n");
 }
 
 void print_text(const Devices& found) {

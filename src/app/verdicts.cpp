@@ -25,7 +25,6 @@
 #include "report/ci/folder.hpp"
 #include "report/ci/junit.hpp"
 #include "report/ci/markdown.hpp"
-#include "report/circumstances.hpp"
 #include "report/exports/benchmark_json.hpp"
 #include "report/overview.hpp"
 #include "report/page/page.hpp"
@@ -133,7 +132,7 @@ void excuse_absent_data(const record::Store& store, judge::GateResult& result) {
           finding.configuration.empty() || finding.configuration == record.configuration;
       if (!device || !configuration) continue;
       any = true;
-      all_absent = all_absent && report::lacks_data(record.outcome, record.reason);
+      all_absent = all_absent && record::lacks_data(record.outcome, record.reason);
     }
     if (any && all_absent) finding.verdict = judge::Verdict::skipped;
   }

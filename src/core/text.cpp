@@ -66,6 +66,12 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
+std::size_t character_count(std::string_view text) {
+  // Counts the bytes that begin a character.
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char byte) { return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U; }));
+}
+
 char32_t code_point(std::string_view character) {
   const unsigned char first = byte_at(character, 0);
   if (character.size() == 1) return first;

@@ -15,6 +15,9 @@ inline constexpr std::string_view replacement_character = "\uFFFD";
 // does not begin with a valid character (Unicode 15, table 3-7).
 [[nodiscard]] std::size_t utf8_length(std::string_view text);
 
+// Returns the number of characters of well-formed UTF-8 text.
+[[nodiscard]] std::size_t character_count(std::string_view text);
+
 [[nodiscard]] char32_t code_point(std::string_view character);
 
 // Returns whether a well-formed UTF-8 character has no glyph of its own, but may change how the

@@ -87,6 +87,11 @@ std::string kind_of(const Reason& reason) {
                      api ? reason.subject + " " + reason.code : "");
 }
 
+bool lacks_data(Outcome outcome, const Reason& reason) {
+  return outcome == Outcome::skipped && reason.cause == Cause::not_supported &&
+         !reason.subject.empty();
+}
+
 bool is_same_kind(const Reason& a, const Reason& b) {
   return kind_of(a) == kind_of(b);
 }

@@ -82,6 +82,10 @@ struct Reason {
   [[nodiscard]] std::optional<std::chrono::seconds> limit() const;
 };
 
+// Returns whether a configuration was skipped because its data file, `reason.subject`, is missing
+// on this machine.
+[[nodiscard]] bool lacks_data(Outcome outcome, const Reason& reason);
+
 // Returns whether two reasons are of the same kind, regardless of their messages and time limits.
 [[nodiscard]] bool is_same_kind(const Reason& a, const Reason& b);
 // Returns a string that is equal for two reasons if and only if they are of the same kind.

@@ -133,13 +133,16 @@ std::string_view Record::clock() const {
   return device_clock_trusted && !device_ns.empty() ? "device" : "wall";
 }
 
-std::string Record::test_id(std::string_view check) const {
+std::string Record::test_prefix() const {
   const std::size_t slash = plan.find_last_of('/');
   const std::string_view last = slash == std::string::npos
                                     ? std::string_view(plan)
                                     : std::string_view(plan).substr(slash + 1);
-  return fmt::format("{}.{}.{}.{}", test_id_part(suite), test_id_part(last), test_id_part(check),
-                     test_id_part(device));
+  return fmt::format("{}.{}.", test_id_part(suite), test_id_part(last));
+}
+
+std::string Record::test_id(std::string_view check) const {
+  return fmt::format("{}{}.{}", test_prefix(), test_id_part(check), test_id_part(device));
 }
 
 std::string plan_argument(const std::string& plan) {

@@ -154,6 +154,8 @@ struct Record {
     return clock == "wall" ? wall_ns : device_ns;
   }
   [[nodiscard]] std::string_view clock() const;
+  // Returns the beginning of all test ids of the plan: "<suite>.<last part of the plan>.".
+  [[nodiscard]] std::string test_prefix() const;
   // Returns "<suite>.<last part of the plan>.<check>.<device>", such as
   // volume.quick.image.vulkan:lavapipe.
   [[nodiscard]] std::string test_id(std::string_view check) const;

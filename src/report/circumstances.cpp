@@ -23,7 +23,7 @@ std::string absent_data(std::span<const judge::GateResult* const> results) {
   bool excused = true;
   for (const judge::GateResult* result : results) {
     for (const judge::Finding& finding : result->findings) {
-      if (!lacks_data(finding.outcome, finding.reason)) continue;
+      if (!record::lacks_data(finding.outcome, finding.reason)) continue;
       files.insert(finding.reason.subject);
       missing.emplace(result->plan, finding.device, finding.configuration);
       excused = excused && result->data_excused;
@@ -94,11 +94,6 @@ std::string unaccepted_drivers(std::span<const judge::GateResult* const> results
 }
 
 }  // namespace
-
-bool lacks_data(record::Outcome outcome, const record::Reason& reason) {
-  return outcome == record::Outcome::skipped && reason.cause == record::Cause::not_supported &&
-         !reason.subject.empty();
-}
 
 std::vector<std::string> circumstances(std::span<const judge::GateResult* const> results) {
   std::set<std::string> injected;

@@ -17,8 +17,4 @@ namespace triptych::report {
 [[nodiscard]] std::vector<std::string> circumstances(
     std::span<const judge::GateResult* const> results);
 
-// Returns whether a record was skipped because its data file, `reason.subject`, is missing on this
-// machine.
-[[nodiscard]] bool lacks_data(record::Outcome outcome, const record::Reason& reason);
-
 }  // namespace triptych::report

@@ -1,7 +1,6 @@
 #include "report/finding_command.hpp"
 
 #include "record/factor_list.hpp"
-#include "report/circumstances.hpp"
 #include "report/command.hpp"
 #include "report/finding_groups.hpp"
 
@@ -68,7 +67,7 @@ bool is_reproduced_by_render(const Finding& finding) {
 std::string command_of(const Finding& finding, const judge::GateResult& result) {
   // There is no command for a skipped configuration, because it would only be skipped again.
   if (finding.device.empty() || finding.verdict == Verdict::skipped) return {};
-  if (lacks_data(finding.outcome, finding.reason)) return {};
+  if (record::lacks_data(finding.outcome, finding.reason)) return {};
   if (finding.configuration.empty() && finding.check != Check::correlation) return {};
   Command command{.command = "render",
                   .object = finding.test.substr(0, finding.test.find('.')),

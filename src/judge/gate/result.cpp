@@ -74,10 +74,14 @@ bool RunView::knows_driver(const record::Device& device) const {
   return found != accepted.end() && found->second.contains(device.statistics_key());
 }
 
+std::string RunView::plan_test_prefix() const {
+  std::string prefix = request.plan + ".";
+  std::ranges::replace(prefix, '/', '.');
+  return prefix;
+}
+
 std::string RunView::plan_test_id(Check check) const {
-  std::string test = request.plan;
-  std::ranges::replace(test, '/', '.');
-  return fmt::format("{}.{}", test, name_of(check));
+  return fmt::format("{}{}", plan_test_prefix(), name_of(check));
 }
 
 std::string RunView::argument() const {

@@ -35,6 +35,9 @@ struct RunView {
   [[nodiscard]] Verdict not_stored_verdict() const {
     return request.decides_each_device ? Verdict::cannot_judge : Verdict::advisory;
   }
+  // Returns the beginning of all test ids of the plan, such as "volume.quick.". Unlike
+  // Record::test_prefix(), it lacks the suite if the plan comes from a file.
+  [[nodiscard]] std::string plan_test_prefix() const;
   // Returns the test id of findings that belong to no device.
   [[nodiscard]] std::string plan_test_id(Check check) const;
   // Returns the plan as a command-line argument.

@@ -80,12 +80,7 @@ bool concerns_run(const Waiver& waiver, const RunView& view) {
 
 // Returns the beginning of all test ids of the plan: "volume.quick.".
 std::string test_prefix(const RunView& view) {
-  const std::string_view check = name_of(Check::image);
-  const std::string plan = view.plan_test_id(Check::image);
-  if (view.records.empty()) return plan.substr(0, plan.size() - check.size());
-  const record::Record& record = view.records.front();
-  const std::string id = record.test_id(check);
-  return id.substr(0, id.size() - check.size() - 1 - record.device.size());
+  return view.records.empty() ? view.plan_test_prefix() : view.records.front().test_prefix();
 }
 
 bool names_test_of(const Waiver& waiver, std::string_view prefix, Check check,
@@ -107,10 +102,8 @@ bool is_covered(const Waiver& waiver, const RunView& view, const std::vector<Fin
   const std::string prefix = test_prefix(view);
   if (view.request.part || !waiver.test.starts_with(prefix)) return false;
   const bool incomplete = std::ranges::any_of(findings, [&](const Finding& finding) {
-    const bool lacks_data = finding.verdict == Verdict::skipped &&
-                            finding.reason.cause == record::Cause::not_supported &&
-                            !finding.reason.subject.empty();
-    return (finding.verdict == Verdict::cannot_judge || lacks_data) &&
+    return (finding.verdict == Verdict::cannot_judge ||
+            record::lacks_data(finding.outcome, finding.reason)) &&
            (finding.device.empty() || core::glob_matches(waiver.device, finding.device));
   });
   if (incomplete) return false;

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 
+#include "core/text.hpp"
 #include "report/html.hpp"
 
 namespace triptych::report {
@@ -11,12 +11,6 @@ namespace {
 
 constexpr double letter = 6.3;  // mean width of a letter in 11 px text
 constexpr double mark_radius = 3.2;
-
-// Returns the number of characters, not of bytes.
-std::size_t length_of(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
-}
 
 std::string mark_path(Mark mark, double x, double y) {
   constexpr double r = mark_radius;
@@ -41,11 +35,11 @@ std::string mark_path(Mark mark, double x, double y) {
 }  // namespace
 
 double width_of(std::string_view text) {
-  return letter * static_cast<double>(length_of(text));
+  return letter * static_cast<double>(core::character_count(text));
 }
 
 std::string shortened(std::string_view text, std::size_t max_length) {
-  if (length_of(text) <= max_length) return std::string(text);
+  if (core::character_count(text) <= max_length) return std::string(text);
   const auto byte_of = [&](std::size_t character) {
     std::size_t at = 0;
     for (; at < text.size(); ++at) {
@@ -56,7 +50,7 @@ std::string shortened(std::string_view text, std::size_t max_length) {
   };
   const std::size_t half = max_length / 2;
   return std::string(text.substr(0, byte_of(half))) + "…" +
-         std::string(text.substr(byte_of(length_of(text) - half + 1)));
+         std::string(text.substr(byte_of(core::character_count(text) - half + 1)));
 }
 
 Html title_element(std::string_view text) {

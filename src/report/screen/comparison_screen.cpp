@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/text.hpp"
 #include "record/short_name.hpp"
 #include "report/words/comparison.hpp"
 #include "report/words/history.hpp"
@@ -68,8 +69,7 @@ std::string broken_lines(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find_first_of(" \n", 1), text.size());
     const std::string_view word = text.substr(0, end);
-    const auto width = static_cast<std::size_t>(std::ranges::count_if(
-        word, [](char each) { return (static_cast<unsigned char>(each) & 0xC0U) != 0x80U; }));
+    const std::size_t width = core::character_count(word);
     if (word.front() == '\n') {
       column = width - 1;
       result += word;

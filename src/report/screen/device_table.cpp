@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "report/screen/columns.hpp"
 #include "report/words/comparison.hpp"
 #include "technique/catalogue.hpp"
 
@@ -58,29 +59,6 @@ std::string cheapest_technique(const SideBySide& table, const std::string& devic
                      table.unit == "ns" ? "ms" : "M");
 }
 
-// Returns the number of characters of UTF-8 text.
-std::size_t cell_width(const std::string& text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char each) { return (static_cast<unsigned char>(each) & 0xC0U) != 0x80U; }));
-}
-
-// Formats a table with left-aligned columns.
-std::string aligned(const std::vector<std::vector<std::string>>& lines) {
-  std::vector<std::size_t> widths(lines.front().size());
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < widths.size(); ++i)
-      widths[i] = std::max(widths[i], cell_width(line[i]));
-  }
-  std::string text;
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i + 1 < widths.size(); ++i) {
-      text += fmt::format("{:<{}}", line[i], widths[i] + 2);
-    }
-    text += line.back() + "\n";
-  }
-  return text;
-}
-
 }  // namespace
 
 std::string screen_of(const SideBySide& table) {
@@ -105,7 +83,7 @@ std::string screen_of(const SideBySide& table) {
   }
   lines.push_back(std::move(least));
   std::string text =
-      aligned(lines) +
+      aligned_columns(lines) +
       fmt::format("\n{} per frame, relative to the best device. {}.\n",
                   table.is_time() ? "Time (" + table.clock + " clock)" : "Instructions",
                   words::sentence(table));

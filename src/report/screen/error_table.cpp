@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <span>
 
+#include "report/screen/columns.hpp"
 #include "report/words/requested_error.hpp"
 
 namespace triptych::report {
@@ -38,18 +38,6 @@ std::vector<std::string> error_row(const measure::ErrorAnswer& answer,
   return row;
 }
 
-std::string columns_of(const std::vector<std::vector<std::string>>& rows) {
-  std::string text;
-  for (const auto& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      std::size_t width = 0;
-      for (const auto& other : rows) width = std::max(width, other[i].size());
-      text += i + 1 < row.size() ? fmt::format("{:<{}}", row[i], width + 2) : row[i] + "\n";
-    }
-  }
-  return text;
-}
-
 std::string name_in_table(const measure::ErrorAnswer& answer) {
   return fmt::format("{} with {}", answer.device, answer.record->technique);
 }
@@ -71,7 +59,7 @@ std::string error_table(Answers answers, const accuracy::RequestedError& request
     if (&each != &best && is_not_clearly_slower(each, best)) similar.push_back(name_in_table(each));
   }
   if (best.record == nullptr) return missed;
-  std::string text = fmt::format("{}\n{}", best.compared_scene, columns_of(rows));
+  std::string text = fmt::format("{}\n{}", best.compared_scene, aligned_columns(rows));
   text += fmt::format("fastest: {}, {:.3f} ms ({} clock), {}\n", name_in_table(best),
                       best.time->median / 1e6, best.clock, words::text_of_errors(best, request));
   if (!similar.empty()) {

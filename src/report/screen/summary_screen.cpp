@@ -30,11 +30,6 @@ constexpr std::size_t max_circumstance_lines = 2;      // for each note
 constexpr std::size_t max_lines_of_circumstances = 8;  // for all notes
 constexpr std::size_t max_drivers = 3;
 
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(
-      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80; }));
-}
-
 std::string_view colour_of(Verdict verdict) {
   switch (verdict) {
     case Verdict::regression:
@@ -68,7 +63,8 @@ class Screen {
   std::string text(const Overview& all, double seconds, std::span<const std::string> files) {
     head(all, seconds);
     for (const CheckRow& row : all.rows) {
-      const std::string pad(11 - std::min<std::size_t>(11, width_of(row.verdict)), ' ');
+      const std::string pad(11 - std::min<std::size_t>(11, core::character_count(row.verdict)),
+                            ' ');
       add(fmt::format("  {:<12}{}{}{}", row.label, coloured(row.verdict, row.worst), pad,
                       core::printable(row.sentence, width_ - 25)));
     }
@@ -105,7 +101,7 @@ class Screen {
                     time_text(seconds), all.part ? " · only part of the plans was judged" : "");
     const std::string right =
         fmt::format("{} ({})", words::verdict_word(all.code), static_cast<int>(all.code));
-    const std::size_t used = width_of(left) + width_of(right);
+    const std::size_t used = core::character_count(left) + core::character_count(right);
     add(left + std::string(used + 3 < width_ ? width_ - used : 3, ' ') +
         coloured(right, verdict_of(all.code)));
     drivers(all);
@@ -211,7 +207,7 @@ class Screen {
     append_wrapped(lines, message_of(cause), "");
     const std::string command = command_of(first, *cause.result);
     // A command is never shortened, because that would turn it into a different command.
-    if (width_of(command) > max_command_width) {
+    if (core::character_count(command) > max_command_width) {
       lines.emplace_back(
           "    (the command is too long for a terminal; the HTML report contains it)");
     } else if (!command.empty()) {
@@ -237,7 +233,8 @@ class Screen {
       if (!each.empty()) rest += "; " + core::printable(each);
     }
     const std::size_t room = max_message_lines * (width_ - 6);
-    const std::size_t left = room > 2 * width_of(rest) ? room - width_of(rest) : room / 2;
+    const std::size_t left =
+        room > 2 * core::character_count(rest) ? room - core::character_count(rest) : room / 2;
     return core::printable(words::found(cause), left) + rest;
   }
 
@@ -250,7 +247,8 @@ class Screen {
     bool quoted = false;
     std::string word;
     const auto flush_word = [&] {
-      if (!line.empty() && width_of(line) + 1 + width_of(word) + 4 + end.size() > width_) {
+      if (!line.empty() &&
+          core::character_count(line) + 1 + core::character_count(word) + 4 + end.size() > width_) {
         lines.push_back("    " + line + std::string(end));
         line = end.empty() ? "" : "  ";
       }

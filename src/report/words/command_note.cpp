@@ -9,7 +9,6 @@
 
 #include "report/command.hpp"
 #include "report/finding_command.hpp"
-#include "report/finding_groups.hpp"
 
 namespace triptych::report::words {
 
@@ -18,14 +17,14 @@ std::string command_note(const judge::Finding& finding, const judge::GateResult&
   if (set == result.environments.end() || command_of(finding, result).empty()) return {};
   const std::vector<std::string> names = omitted_variables(set->second);
   if (names.empty()) return {};
+  const bool one = names.size() == 1;
   std::string text = fmt::format(
       "{} {} set during the measurement, but the command does not set {}, because {} could load "
       "other code",
-      fmt::join(names, ", "), names.size() == 1 ? "was" : "were", names.size() == 1 ? "it" : "them",
-      names.size() == 1 ? "it" : "they");
+      fmt::join(names, ", "), one ? "was" : "were", one ? "it" : "them", one ? "it" : "they");
   if (const auto device = result.tested.find(finding.device); device != result.tested.end()) {
     text += fmt::format("; if the command does not use driver version {}, set {} before it",
-                        device->second.driver_version, names.size() == 1 ? "it" : "them");
+                        device->second.driver_version, one ? "it" : "them");
   }
   return text;
 }

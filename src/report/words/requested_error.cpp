@@ -57,8 +57,7 @@ std::string text_of(const measure::Unreachable& unreachable,
   return fmt::format(
       "{}: the error caused by the step size is too large with every step: the smallest error is "
       "{:.3g} (estimated at viewport={}), but the step may cause only about {:.3g} of the "
-      "requested "
-      "error {}; request a larger error",
+      "requested error {}; request a larger error",
       unreachable.scene, unreachable.error, unreachable.viewport, unreachable.allowed,
       text_of(request));
 }

@@ -17,6 +17,7 @@
 #include "core/temporary_folder.hpp"
 #include "measure/contract/factor.hpp"
 #include "measure/request/error_answer.hpp"
+#include "stub_suite.hpp"
 
 namespace triptych::measure {
 namespace {
@@ -31,23 +32,38 @@ core::Image uniform_image(double value) {
 }
 
 // A suite whose images have one value everywhere. The step causes an error of second order.
-class SuiteWithKnownError final : public SuiteWithTruth {
+class SuiteWithKnownError final : public StubSuite {
  public:
+  SuiteWithKnownError()
+      : StubSuite({{.name = "technique",
+                    .kind = FactorKind::choice,
+                    .levels = {"raycast", "raycast_fragment"},
+                    .default_value = "raycast",
+                    .determines_image = false,
+                    .automatic = {"raycast", "raycast_fragment"}},
+                   {.name = "data", .default_value = "cube"},
+                   {.name = "camera", .default_value = "front"},
+                   {.name = "viewport", .default_value = "32"},
+                   number("step", 1.0 / 64, 4096, "1", true),
+                   {.name = "quadrature",
+                    .kind = FactorKind::choice,
+                    .levels = {"midpoint", "own"},
+                    .default_value = "midpoint"},
+                   {.name = "skip",
+                    .kind = FactorKind::choice,
+                    .levels = {"none", "bricks", "distance"},
+                    .default_value = "distance",
+                    .determines_image = false},
+                   number("ert", 0, 0.5, "0.002", false),
+                   number("adapt", 0, 0.5, "0", false)}) {}
+
   std::string_view name() const override { return "known"; }
-  const std::vector<Factor>& factors() const override { return factors_; }
-  void check(const Factor&, std::string_view) const override {}
-  std::vector<std::string_view> plan_names() const override { return {}; }
-  std::string_view plan_text(std::string_view) const override { return {}; }
-  std::string missing_data(const Configuration&) const override { return {}; }
-  Work work(Configuration&, const Device&) override { return {}; }
-  Work calibration(technique::Work) override { return {}; }
   accuracy::TruthPair truth(const Configuration& configuration,
                             const std::map<std::string, double>&) override {
     ++truths;
     const double step = as_number(configuration, "step");
     return {uniform_image(0.5 + step_factor * step * step), uniform_image(0)};
   }
-  nlohmann::json describe(const Configuration&) override { return {}; }
   std::string truth_key(const Configuration&, const std::map<std::string, double>&) override {
     return {};
   }
@@ -68,27 +84,6 @@ class SuiteWithKnownError final : public SuiteWithTruth {
             .default_value = std::move(value),
             .determines_image = determines_image};
   }
-  std::vector<Factor> factors_{{.name = "technique",
-                                .kind = FactorKind::choice,
-                                .levels = {"raycast", "raycast_fragment"},
-                                .default_value = "raycast",
-                                .determines_image = false,
-                                .automatic = {"raycast", "raycast_fragment"}},
-                               {.name = "data", .default_value = "cube"},
-                               {.name = "camera", .default_value = "front"},
-                               {.name = "viewport", .default_value = "32"},
-                               number("step", 1.0 / 64, 4096, "1", true),
-                               {.name = "quadrature",
-                                .kind = FactorKind::choice,
-                                .levels = {"midpoint", "own"},
-                                .default_value = "midpoint"},
-                               {.name = "skip",
-                                .kind = FactorKind::choice,
-                                .levels = {"none", "bricks", "distance"},
-                                .default_value = "distance",
-                                .determines_image = false},
-                               number("ert", 0, 0.5, "0.002", false),
-                               number("adapt", 0, 0.5, "0", false)};
 };
 
 class ErrorRequestTest : public testing::Test {

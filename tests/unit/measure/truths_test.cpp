@@ -11,25 +11,19 @@
 #include "core/image_io.hpp"
 #include "core/temporary_folder.hpp"
 #include "measure/truth/own_seal.hpp"
+#include "stub_suite.hpp"
 #include "tests/unit/measure_run/scratch.hpp"
 
 namespace triptych::measure {
 namespace {
 
 // A suite whose image depends only on the step size.
-class TruthfulSuite final : public SuiteWithTruth {
+class TruthfulSuite final : public StubSuite {
  public:
   int rendered = 0;
   bool has_data = true;
 
   std::string_view name() const override { return "truthful"; }
-  const std::vector<Factor>& factors() const override { return factors_; }
-  void check(const Factor&, std::string_view) const override {}
-  std::vector<std::string_view> plan_names() const override { return {}; }
-  std::string_view plan_text(std::string_view) const override { return {}; }
-  std::string missing_data(const Configuration&) const override { return {}; }
-  Work work(Configuration&, const Device&) override { return {}; }
-  Work calibration(technique::Work) override { return {}; }
   accuracy::TruthPair truth(const Configuration& configuration,
                             const std::map<std::string, double>&) override {
     ++rendered;
@@ -38,7 +32,6 @@ class TruthfulSuite final : public SuiteWithTruth {
     pair.bound.rgba[0] = 0.25F;
     return pair;
   }
-  nlohmann::json describe(const Configuration&) override { return {}; }
   std::string truth_key(const Configuration& configuration,
                         const std::map<std::string, double>&) override {
     return configuration.at("step");
@@ -54,9 +47,6 @@ class TruthfulSuite final : public SuiteWithTruth {
     if (!has_data) throw core::InputError("gone");
     return "hash";
   }
-
- private:
-  std::vector<Factor> factors_;
 };
 
 record::Record record_with(const std::string& step) {
