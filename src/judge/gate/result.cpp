@@ -37,7 +37,7 @@ std::vector<std::string> GateResult::undecided_devices() const {
 }
 
 std::map<Check, std::set<std::string>> GateResult::undecided_checks() const {
-  // By device. Devices on which the check was only skipped are missing.
+  // The inner keys are devices. Devices on which the check was only skipped are missing.
   std::map<Check, std::map<std::string, bool>> decided;
   std::set<Check> with_decision;
   for (const Finding& finding : findings) {

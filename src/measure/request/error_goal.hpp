@@ -1,5 +1,5 @@
 #pragma once
-// What `--error E` requests: the error, and the factors whose levels it may choose.
+// Describes what `--error E` requests: the error, and the factors whose levels it may choose.
 
 #include <array>
 #include <cstddef>
